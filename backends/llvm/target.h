@@ -1,0 +1,28 @@
+// The processors that the LLVM backend emits code for, by name.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ir/program.h"
+
+namespace imp {
+
+struct CpuTarget {
+  std::string name;      // host, avx512, avx2, sse4.1
+  std::string cpu;       // LLVM's name of it: x86-64-v4, x86-64-v3, …; host: the host's own
+  std::string features;  // "+avx2,+fma,…"
+  unsigned register_bits = 128;
+  bool runs_here = false;
+
+  // Rays a packet holds: two registers of the Program's widest type that it computes with in a
+  // phase (or at all, where it has no phase).
+  unsigned lanes(const Program& program) const;
+};
+
+std::vector<CpuTarget> cpu_targets();
+std::optional<CpuTarget> cpu_target(std::string_view name);
+
+}  // namespace imp

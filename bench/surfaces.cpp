@@ -1,0 +1,40 @@
+#include "bench/surfaces.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+namespace imp::bench {
+namespace {
+
+[[noreturn]] void fail(const Diagnostics& diagnostics) {
+  fmt::print(stderr, "{}", to_text(diagnostics));
+  std::exit(1);
+}
+
+}  // namespace
+
+Model example(const std::string& name) {
+  const std::string path = std::string(IMP_SOURCE_DIR) + "/examples/surfaces/" + name + ".imp";
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  Diagnostics diagnostics;
+  auto model = parse_model(text.str(), path, diagnostics);
+  if (!model) fail(diagnostics);
+  return *std::move(model);
+}
+
+Scene scene(const std::string& name, const RenderOptions& options) {
+  Scene result{.model = std::make_unique<Model>(example(name)), .renderer = {}, .uniforms = {}};
+  Diagnostics diagnostics;
+  auto renderer = Renderer::make(*result.model, options, diagnostics);
+  auto uniforms = uniform_values(*result.model, {}, {}, diagnostics);
+  if (!renderer || !uniforms) fail(diagnostics);
+  result.renderer = std::make_unique<Renderer>(*std::move(renderer));
+  result.uniforms = *std::move(uniforms);
+  return result;
+}
+
+}  // namespace imp::bench

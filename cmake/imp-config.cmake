@@ -1,0 +1,6 @@
+include(CMakeFindDependencyMacro)
+find_dependency(fmt CONFIG)
+find_dependency(glm CONFIG)
+find_dependency(Threads)
+find_dependency(LLVM 19.1 CONFIG)
+include(${CMAKE_CURRENT_LIST_DIR}/imp-targets.cmake)

@@ -1,0 +1,32 @@
+# imp_library(NAME [RECURSE] [ROUNDING] [EXCLUDE regex] [LINK target…] [PRIVATE target…])
+#
+# The static library of the current folder: every .cpp in it, so a new file needs no edit here. LINK is
+# what its headers need too. A folder without a .cpp is an interface library, until it has one.
+function(imp_library name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "RECURSE;ROUNDING" "EXCLUDE" "LINK;PRIVATE")
+  if(arg_RECURSE)
+    file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.cpp)
+  else()
+    file(GLOB sources CONFIGURE_DEPENDS *.cpp)
+  endif()
+  if(arg_EXCLUDE)
+    list(FILTER sources EXCLUDE REGEX ${arg_EXCLUDE})
+  endif()
+
+  if(sources)
+    set(interface PUBLIC)
+    add_library(${name} STATIC ${sources})
+    target_link_libraries(${name} PRIVATE ${arg_PRIVATE})
+    if(arg_ROUNDING)
+      target_compile_options(${name} PRIVATE ${IMP_ROUNDING})
+    endif()
+  else()
+    set(interface INTERFACE)
+    add_library(${name} INTERFACE)
+  endif()
+  add_library(imp::${name} ALIAS ${name})
+  target_link_libraries(${name} ${interface} ${arg_LINK})
+  target_include_directories(${name} ${interface}
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include/imp>)
+  install(TARGETS ${name} EXPORT imp ARCHIVE DESTINATION lib/imp)
+endfunction()

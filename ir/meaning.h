@@ -1,0 +1,118 @@
+// What each op computes, on the host: the last column of ir/ops.def made executable. The rounding
+// mode is the caller's; compile callers with -frounding-math.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "ir/assert.h"
+#include "ir/op.h"
+
+namespace imp::meaning {
+
+template <class T>
+T sign(T a) {
+  return a > 0 ? T(1) : a < 0 ? T(-1) : a;
+}
+
+// Rounded at each of its three ops.
+template <class T>
+T mod(T a, T b) {
+  return a - b * std::floor(a / b);
+}
+
+// a^n by squaring from the highest bit down; 1/a^-n for n < 0; 1 for n = 0. `n` is a constant
+// integer of magnitude at most 2^20. The power pass spells the same products.
+template <class T>
+T powi(T a, T n) {
+  const auto magnitude = static_cast<unsigned>(std::abs(n));
+  if (magnitude == 0) return T(1);
+  T power = a;
+  int bit = 31;
+  while (((magnitude >> bit) & 1u) == 0) --bit;
+  for (--bit; bit >= 0; --bit) {
+    power = power * power;
+    if ((magnitude >> bit) & 1u) power = power * a;
+  }
+  return n < 0 ? T(1) / power : power;
+}
+
+// The real power: NaN for a < 0, 1 for b = 0, else as IEEE 754 pow.
+template <class T>
+T pow(T a, T b) {
+  return a < 0 ? std::numeric_limits<T>::quiet_NaN() : std::pow(a, b);
+}
+
+// floor(log2 |a|): -inf at 0, +inf at +-inf, NaN at NaN; true exponents for denormals.
+template <class T>
+T exponent(T a) {
+  return std::logb(a);
+}
+
+// a * 2^floor(k), rounded once; k is first clamped to [-5000, 5000]; a NaN k gives NaN.
+template <class T>
+T scale2(T a, T k) {
+  if (std::isnan(k)) return k;
+  const T clamped = k < T(-5000) ? T(-5000) : k > T(5000) ? T(5000) : k;
+  return std::scalbn(a, static_cast<int>(std::floor(clamped)));
+}
+
+// The value of a real, elementary or upward op. Unused operands are ignored.
+template <class T>
+T real([[maybe_unused]] Op op, [[maybe_unused]] T a, [[maybe_unused]] T b, [[maybe_unused]] T c) {
+#define IMP_MEANING_real(name, text) \
+  case Op::name: return text;
+#define IMP_MEANING_elementary(name, text) IMP_MEANING_real(name, text)
+#define IMP_MEANING_upward(name, text) IMP_MEANING_real(name, text)
+#define IMP_MEANING_compare(name, text)
+#define IMP_MEANING_logic(name, text)
+#define IMP_MEANING_choice(name, text)
+#define IMP_MEANING_convert(name, text)
+#define IMP_MEANING_packet(name, text)
+#define IMP_MEANING_structure(name, text)
+  switch (op) {
+#define OP(name, arity, kind, llvm, glsl, text) IMP_MEANING_##kind(name, text)
+#include "ir/ops.def"
+    default: break;
+  }
+#undef IMP_MEANING_real
+#define IMP_MEANING_real(name, text)
+  IMP_ASSERT(false, "an op on numbers");
+  return a;
+}
+
+// The value of a comparison (T a number) or of a logic op (T = bool).
+template <class T>
+bool truth([[maybe_unused]] Op op, T a, [[maybe_unused]] T b) {
+  switch (op) {
+#undef IMP_MEANING_elementary
+#undef IMP_MEANING_upward
+#undef IMP_MEANING_compare
+#undef IMP_MEANING_logic
+#define IMP_MEANING_elementary(name, text)
+#define IMP_MEANING_upward(name, text)
+#define IMP_MEANING_compare(name, text) \
+  case Op::name: return text;
+#define IMP_MEANING_logic(name, text)                   \
+  case Op::name:                                        \
+    if constexpr (std::is_same_v<T, bool>) return text; \
+    break;
+#define OP(name, arity, kind, llvm, glsl, text) IMP_MEANING_##kind(name, text)
+#include "ir/ops.def"
+    default: break;
+  }
+#undef IMP_MEANING_real
+#undef IMP_MEANING_elementary
+#undef IMP_MEANING_upward
+#undef IMP_MEANING_compare
+#undef IMP_MEANING_logic
+#undef IMP_MEANING_choice
+#undef IMP_MEANING_convert
+#undef IMP_MEANING_packet
+#undef IMP_MEANING_structure
+  IMP_ASSERT(false, "a comparison or a logic op");
+  return false;
+}
+
+}  // namespace imp::meaning

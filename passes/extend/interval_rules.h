@@ -1,0 +1,81 @@
+// Interval arithmetic as a number type that builds nodes: the natural interval extension (Moore
+// 1966; Knoll et al. 2009, §3.2), with sets as IEEE 1788 has them and every rounding outward.
+//
+// An interval is carried as (-lo, hi), so that both ends round upward. The bounds are never NaN
+// where the operands' are not; where `empty` holds they mean nothing.
+#pragma once
+
+#include "ir/expr.h"
+#include "ir/replay.h"
+
+namespace imp {
+
+// What is known of the bounds before any box is.
+struct Facts {
+  bool nonnegative = false;  // lo >= 0, as computed
+  bool bounded = false;      // both ends finite, as computed
+};
+
+struct Interval {
+  Expr nlo, hi;      // [-nlo, hi]
+  Truth empty;       // no point of the box has a value
+  Truth continuous;  // every point of the box has a value, and f is continuous on the box
+  Facts facts;
+
+  Expr lo() const { return -nlo; }
+};
+
+// A truth over a box: it may hold at some point of it, it may fail at some point.
+struct Possible {
+  Truth yes, no;
+};
+
+// NaN may be zero; the empty set is not.
+Truth may_be_zero(const Interval& a);
+Truth is_positive(const Interval& a);
+Truth is_negative(const Interval& a);
+
+// The interval [lo, hi], which is not empty; and {value}.
+Interval interval(Expr nlo, Expr hi, Facts facts = {});
+Interval point(Expr value, Facts facts = {});
+Interval intersect(const Interval& a, const Interval& b);
+
+// One rule an op, named after it, for ir/replay.h.
+class IntervalRules {
+ public:
+  struct Value {
+    Interval number;
+    Possible truth;
+    Value(Interval a) : number(a) {}
+    Value(Possible a) : truth(a) {}
+    operator const Interval&() const { return number; }
+    operator const Possible&() const { return truth; }
+  };
+
+  Interval add(const Interval& a, const Interval& b) const;
+  Interval sub(const Interval& a, const Interval& b) const;
+  Interval mul(const Interval& a, const Interval& b) const;
+  Interval square(const Interval& a) const;  // of one and the same value: tighter than mul(a, a)
+  Interval div(const Interval& a, const Interval& b) const;
+  Interval fma(const Interval& a, const Interval& b, const Interval& c) const;
+  Interval neg(const Interval& a) const;
+  Interval abs(const Interval& a) const;
+  Interval min(const Interval& a, const Interval& b) const;
+  Interval max(const Interval& a, const Interval& b) const;
+  Interval sqrt(const Interval& a) const;
+  Interval floor(const Interval& a) const;
+  Interval ceil(const Interval& a) const;
+  Interval sign(const Interval& a) const;
+  Interval mod(const Interval& a, const Interval& b) const;
+  Interval powi(const Interval& a, const Interval& n) const;
+
+  Possible lt(const Interval& a, const Interval& b) const;
+  Possible le(const Interval& a, const Interval& b) const;
+  Possible eq(const Interval& a, const Interval& b) const;
+  Possible and_(const Possible& a, const Possible& b) const;
+  Possible or_(const Possible& a, const Possible& b) const;
+  Possible not_(const Possible& a) const;
+  Interval select(const Possible& c, const Interval& a, const Interval& b) const;
+};
+
+}  // namespace imp

@@ -1,0 +1,12 @@
+// Power strength reduction: integer powers become products, as no processor has a power.
+#pragma once
+
+#include "ir/program.h"
+
+namespace imp {
+
+// Every powi as the products of meaning::powi, shared between powers of the same base, and 1/… for
+// negative exponents. Preserves bits.
+Program reduce_powers(const Program& program);
+
+}  // namespace imp

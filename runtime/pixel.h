@@ -1,0 +1,17 @@
+// The Program of a pixel: camera, domain, search, normal and shade in one kernel.
+#pragma once
+
+#include <optional>
+
+#include "ir/stage.h"
+#include "runtime/render.h"
+
+namespace imp {
+
+// The inputs of a stage (ir/stage.h), the frame inputs of runtime/view.h and the uniforms (f64);
+// outputs, f32: red, green, blue (linear), verdict, and as asked depth, normal.x, normal.y,
+// normal.z, steps.
+std::optional<Program> pixel_program(const Model& model, const RenderOptions& options,
+                                     Diagnostics& diagnostics);
+
+}  // namespace imp

@@ -1,0 +1,67 @@
+// Pictures of a Model.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+#include "frontend/model.h"
+#include "runtime/kernel.h"
+#include "runtime/numbers.h"
+#include "runtime/search/search.h"
+#include "runtime/workers.h"
+
+namespace imp {
+
+enum class Thin : std::uint8_t { draw, hide, mark };  // how undecided pixels are drawn
+
+struct RenderOptions {
+  std::size_t width = 1024, height = 1024;
+  std::vector<std::size_t> surfaces;  // indices into Model::surfaces; empty: all
+  const Search* search = nullptr;     // null: the default one
+  SearchLimits limits;
+  Thin thin = Thin::draw;
+  bool depth = false, normal = false, steps = false, verdict = false;  // further channels
+  std::shared_ptr<Workers> workers;                                    // null: a team of one thread a core
+  KernelOptions kernel;
+};
+
+// Rows from the top. Colours are linear. Channels that were not asked for are empty, but for the
+// verdicts, which are always there.
+struct Picture {
+  std::size_t width = 0, height = 0;
+  std::vector<float> color;    // red, green, blue
+  std::vector<float> verdict;  // 1 hit, 0 miss, -1 undecided
+  std::vector<float> depth;    // distance from the eye; infinite where nothing was found
+  std::vector<float> normal;   // x, y, z; 0 where nothing was found
+  std::vector<float> steps;    // inclusions evaluated
+
+  std::size_t count(double which) const;  // pixels with this verdict
+};
+
+// The kernel of a picture, made once and run for many frames: parameters, time, camera, lights and
+// size are uniforms.
+class Renderer {
+ public:
+  static std::optional<Renderer> make(const Model& model, const RenderOptions& options,
+                                      Diagnostics& diagnostics, Timings* timings = nullptr);
+
+  // Renders a frame; stops early, with what is done, when asked. `progress` hears, from any thread,
+  // what share of the tiles is done.
+  Picture frame(const UniformValues& uniforms, std::stop_token stop = {},
+                const std::function<void(double)>& progress = {}) const;
+
+  const Program& program() const { return kernel_->program(); }
+
+ private:
+  Renderer(const Model& model, RenderOptions options, std::shared_ptr<const Kernel> kernel);
+
+  const Model* model_;
+  RenderOptions options_;
+  std::shared_ptr<const Kernel> kernel_;
+};
+
+}  // namespace imp

@@ -1,0 +1,38 @@
+// From rays and formulas to what a strategy is given.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "ir/diagnostics.h"
+#include "passes/range.h"
+#include "runtime/search/search.h"
+
+namespace imp {
+
+// A uniform of f in a kernel: its enclosure and its nearest number.
+struct Uniform {
+  Interval bounds;
+  Expr value;
+};
+
+// A double as a uniform of a kernel of type `type`.
+Uniform uniform(Expr value, Type type);
+
+// The segment o + t d, tmin <= t <= tmax, of exactly these doubles, for a kernel of type `type`.
+Segment segment_of_ray(const std::array<Expr, 3>& o, const std::array<Expr, 3>& d, Expr tmin, Expr tmax,
+                       Type type);
+
+// The segment of a ray in the kernel's own type; it is what its numbers say.
+Segment segment_of_numbers(const std::array<Expr, 3>& o, const std::array<Expr, 3>& d, Expr near, Expr far);
+
+// A box that the segments will not leave, as far as it is known before anything runs.
+using SpaceBounds = std::array<Range, 3>;
+
+// f (inputs x, y, z, then uniforms; f64) along the segment. Errors where f has no derivative or no
+// interval extension. The functions build into the segment's graph and share sub-expressions.
+std::optional<RayFunction> ray_function(const Program& f, const Segment& segment,
+                                        std::span<const Uniform> uniforms,
+                                        const std::optional<SpaceBounds>& space, Diagnostics& diagnostics);
+
+}  // namespace imp

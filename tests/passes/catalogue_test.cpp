@@ -1,0 +1,93 @@
+// Every surface of the catalogue, from its text to numbers: value, gradient and Hessian against the
+// exact ones, before and after the kernel passes.
+#include <gtest/gtest.h>
+
+#include "frontend/model.h"
+#include "ir/text.h"
+#include "ir/verify.h"
+#include "passes/differentiate.h"
+#include "passes/pass.h"
+#include "passes/precision.h"
+#include "tests/support/error_scale.h"
+#include "tests/support/evaluate.h"
+#include "tests/support/surface_data.h"
+
+namespace imp {
+namespace {
+
+const std::vector<test::SurfaceEntry>& catalogue() {
+  static const auto entries = test::load_surfaces(IMP_TEST_DATA);
+  return entries;
+}
+
+// x, y, z, the parameters at their defaults, the time.
+std::vector<double> inputs_at(const Model& model, const test::ValueRecord& record) {
+  std::vector<double> values(record.p.begin(), record.p.end());
+  const auto settings =
+      test::evaluate(in_precision(model.settings, f64), std::vector<double>(model.settings.inputs.size()));
+  for (const Parameter& parameter : model.parameters) values.push_back(settings[parameter.value.output]);
+  if (model.time) values.push_back(record.time.value_or(settings[model.time->value.output]));
+  return values;
+}
+
+std::array<double, 10> expected_of(const test::ValueRecord& v) {
+  std::array<double, 10> all{v.f, v.gradient[0], v.gradient[1], v.gradient[2]};
+  std::ranges::copy(v.hessian, all.begin() + 4);
+  return all;
+}
+
+double largest(std::span<const double> values) {
+  double result = 0;
+  for (const double value : values)
+    if (std::isfinite(value)) result = std::max(result, std::abs(value));
+  return result;
+}
+
+class Catalogue : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(Catalogue, value_gradient_and_hessian) {
+  const test::SurfaceEntry& entry = catalogue()[GetParam()];
+  Diagnostics diagnostics;
+  const auto model = parse_model(entry.source, entry.id + ".imp", diagnostics);
+  ASSERT_TRUE(model) << to_text(diagnostics);
+  const Program& f = model->surfaces.at(0).f;
+  ASSERT_EQ(verify(f), "");
+  const auto all = hessian(f, diagnostics);
+  ASSERT_TRUE(all) << to_text(diagnostics);
+  ASSERT_EQ(verify(*all), "");
+
+  const Program numbers = in_precision(*all, f64);
+  ASSERT_EQ(verify(numbers), "");
+  const Program program = run_passes(numbers, kernel_passes());
+  ASSERT_EQ(verify(program), "");
+  const auto kernel = interpret(program), before = interpret(numbers);
+
+  for (const test::ValueRecord& record : entry.values) {
+    const auto inputs = inputs_at(*model, record);
+    const auto found = test::evaluate(*kernel, inputs), same = test::evaluate(*before, inputs);
+    const auto expected = expected_of(record);
+    std::array<double, 10> tolerance{};
+    if (entry.kind == "algebraic") {
+      const auto scales = test::error_scales(program, inputs);
+      for (std::size_t i = 0; i < scales.size(); ++i) tolerance[i] = 1e-12 * scales[i];
+    } else {
+      const double slope = largest(record.gradient), bend = largest(record.hessian);
+      tolerance.fill(1e-9 * (1 + bend));
+      for (std::size_t i = 0; i < 4; ++i) tolerance[i] = 1e-9 * (1 + slope);
+      tolerance[0] = 1e-9 * (1 + slope + std::abs(record.f));
+    }
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      EXPECT_TRUE(test::same_bits(found[i], same[i])) << "the passes changed " << program.outputs[i].name;
+      if (std::isnan(expected[i])) continue;
+      EXPECT_NEAR(found[i], expected[i], tolerance[i])
+          << program.outputs[i].name << " at " << testing::PrintToString(record.p);
+    }
+    if (HasFailure()) break;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Surfaces, Catalogue, testing::Range(std::size_t{0}, catalogue().size()),
+                         [](const auto& test) { return catalogue()[test.param].id; });
+
+}  // namespace
+}  // namespace imp

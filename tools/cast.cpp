@@ -1,0 +1,49 @@
+// imp cast: the first hit of every ray of a table.
+#include <array>
+#include <cmath>
+
+#include "runtime/evaluate.h"
+#include "tools/rows.h"
+
+namespace imp::tools {
+namespace {
+
+std::string_view word(double verdict) {
+  return verdict == verdict_hit ? "hit" : verdict == verdict_miss ? "miss" : "undecided";
+}
+
+// What was not found is an empty cell.
+void write(std::string& text, std::span<const Column> outputs, std::size_t row) {
+  text += ',';
+  text += word(outputs[0][row]);
+  for (const Column& column : outputs.subspan(1)) {
+    text += ',';
+    if (!std::isnan(column[row])) append_number(text, column[row]);
+  }
+}
+
+struct Cast {
+  Options options;
+  TableJob job;
+
+  Exit run() {
+    job.rows = Rows::rays;
+    job.columns = {"verdict", "t", "nx", "ny", "nz", "steps"};
+    job.write = write;
+    job.program = [this](const Surface& surface, Diagnostics& diagnostics) {
+      return cast_program(surface, *options.search, options.limits, options.kernel.precision, diagnostics);
+    };
+    return run_table(job, options);
+  }
+};
+
+}  // namespace
+
+Action add_cast(CLI::App& verb) {
+  auto cast = std::make_shared<Cast>();
+  add_paths(verb, cast->job, "--rays", "rays (ox,oy,oz,dx,dy,dz,tmin,tmax), with a header line");
+  add_options(verb, cast->options);
+  return [cast] { return cast->run(); };
+}
+
+}  // namespace imp::tools

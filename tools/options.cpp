@@ -1,0 +1,171 @@
+#include "tools/options.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "backends/llvm/target.h"
+#include "ir/diagnostics.h"
+#include "runtime/csv.h"
+
+namespace imp::tools {
+namespace {
+
+constexpr Choice backends[] = {
+    {"llvm", "machine code of this computer"},
+    {"interpreter", "the reference: slow and obvious"},
+    {"glsl", "shaders", false},
+};
+constexpr Choice precisions[] = {{"float", "32 bits"}, {"double", "64 bits"}};
+constexpr Choice roundings[] = {
+    {"outward", "enclosures hold in spite of rounding"},
+    {"nearest", "as in the papers: faster, and not sound"},
+};
+constexpr Choice inclusion_choices[] = {
+    {"auto", "what is best for the surface; natural intervals as yet"},
+    {"ia", "the natural interval extension"},
+    {"af1", "the reduced affine form", false},
+    {"taylor", "the Taylor form", false},
+    {"mean-value", "the mean value form", false},
+};
+
+std::vector<Choice> target_choices(const std::vector<CpuTarget>& targets) {
+  std::vector<Choice> choices;
+  choices.reserve(targets.size());
+  for (const CpuTarget& target : targets) choices.push_back({target.name, target.cpu});
+  return choices;
+}
+
+// The strategies that there are, and those to come.
+std::vector<Choice> search_choices() {
+  std::vector<Choice> choices;
+  for (const Search& search : searches()) choices.push_back({search.name, search.summary});
+  if (!search_named("auto")) choices.push_back({"auto", "what is best for the surface", false});
+  return choices;
+}
+
+// 2^-11, or a number.
+double read_epsilon(const std::string& text) {
+  constexpr std::string_view option = "--epsilon";
+  const std::size_t hat = text.find('^');
+  const double value = hat == std::string::npos
+                           ? read_real(option, text)
+                           : std::pow(read_real(option, std::string_view(text).substr(0, hat)),
+                                      read_real(option, std::string_view(text).substr(hat + 1)));
+  if (!(value > 0 && value <= 1)) refuse(option, fmt::format("'{}' is not above 0 and at most 1", text));
+  return value;
+}
+
+Override read_override(const std::string& text) {
+  constexpr std::string_view option = "-D";
+  const std::size_t equals = text.find('=');
+  if (equals == 0 || equals == std::string::npos)
+    refuse(option, fmt::format("'{}' is not of the form name=value", text));
+  return {text.substr(0, equals), read_real(option, std::string_view(text).substr(equals + 1))};
+}
+
+// "there are llvm, interpreter"
+std::string those_there(const std::vector<std::string_view>& names) {
+  return fmt::format("there {} {}", names.size() == 1 ? "is" : "are", fmt::join(names, ", "));
+}
+
+// "true" is how CLI11 writes a flag without a word.
+std::string check_stats(std::string& word) {
+  if (word == "true") word = "text";
+  return word == "text" || word == "json" ? "" : fmt::format("unknown '{}'; there are text, json", word);
+}
+
+}  // namespace
+
+void refuse(std::string_view option, std::string message) {
+  throw CLI::ValidationError(std::string(option), std::move(message));
+}
+
+std::size_t choose(std::string_view option, std::string_view word, std::span<const Choice> choices) {
+  std::vector<std::string_view> names;
+  for (const Choice& choice : choices)
+    if (choice.there) names.push_back(choice.name);
+  const auto it = std::ranges::find(choices, word, &Choice::name);
+  if (it != choices.end() && it->there) return static_cast<std::size_t>(it - choices.begin());
+  if (it != choices.end()) refuse(option, fmt::format("'{}' is not there yet; {}", word, those_there(names)));
+  const std::string hint = did_you_mean(word, names);
+  refuse(option, fmt::format("unknown '{}'{}", word, hint.empty() ? "; " + those_there(names) : hint));
+}
+
+double read_real(std::string_view option, std::string_view text) {
+  const auto value = read_number(text);
+  if (!value) refuse(option, fmt::format("'{}' is no number", text));
+  return *value;
+}
+
+std::size_t read_count(std::string_view option, std::string_view text, std::size_t least, std::size_t most) {
+  const auto value = read_number(text);
+  const bool right = value && *value == std::floor(*value) && static_cast<double>(least) <= *value &&
+                     *value <= static_cast<double>(most);
+  if (!right) refuse(option, fmt::format("'{}' is no whole number from {} to {}", text, least, most));
+  return static_cast<std::size_t>(*value);
+}
+
+CLI::Option* add_value(CLI::App& verb, const std::string& names, const std::string& form,
+                       const std::string& help, const std::function<void(const std::string&)>& take) {
+  return verb.add_option_function<std::string>(names, take, help)->type_name(form)->take_last();
+}
+
+CLI::Option* add_choice(CLI::App& verb, const std::string& name, std::span<const Choice> choices,
+                        const std::string& help, std::function<void(std::size_t)> take) {
+  std::string form;
+  for (const Choice& choice : choices)
+    if (choice.there) form += fmt::format("{}{}", form.empty() ? "" : "|", choice.name);
+  return add_value(verb, name, form, help, [name, choices, take = std::move(take)](const std::string& word) {
+    take(choose(name, word, choices));
+  });
+}
+
+void add_options(CLI::App& verb, Options& options) {
+  static const std::vector<CpuTarget> targets = cpu_targets();
+  static const std::vector<Choice> target_words = target_choices(targets);
+  static const std::vector<Choice> search_words = search_choices();
+  options.search = searches().data();
+
+  add_value(verb, "--surface", "NAME", "the surface, where the file has several",
+            [&](const std::string& name) { options.surface = name; });
+  add_choice(verb, "--backend", backends, "what runs (llvm)",
+             [&](std::size_t i) { options.kernel.backend = i == 0 ? Backend::llvm : Backend::interpreter; });
+  add_choice(verb, "--precision", precisions, "of the numbers (float)",
+             [&](std::size_t i) { options.kernel.precision = i == 0 ? f32 : f64; });
+  add_choice(verb, "--target", target_words, "the processor (host)",
+             [&](std::size_t i) { options.kernel.target = targets[i].name; });
+  add_choice(verb, "--rounding", roundings, "of enclosures (outward)",
+             [&](std::size_t i) { options.kernel.outward = i == 0; });
+  add_choice(verb, "--search", search_words, "the strategy along a ray",
+             [&](std::size_t i) { options.search = search_named(search_words[i].name); });
+  add_choice(verb, "--inclusion", inclusion_choices, "how f is enclosed (auto)",
+             [&](std::size_t) { options.inclusion = "ia"; });  // auto is ia, as yet
+  add_value(verb, "--epsilon", "E", "a piece of this share of a ray's segment is no longer split, as 2^-11",
+            [&](const std::string& text) { options.limits.epsilon = read_epsilon(text); });
+  add_value(verb, "--time", "V", "the time",
+            [&](const std::string& text) { options.time = read_real("--time", text); });
+  verb.add_option_function<std::vector<std::string>>(
+          "-D",
+          [&](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) options.overrides.push_back(read_override(text));
+          },
+          "a parameter's value; may be repeated")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);
+  verb.add_flag_function(
+      "--timings", [&](std::int64_t) { options.timings = true; },
+      "milliseconds of every stage, on standard error");
+  verb.add_flag("--stats", options.stats, "counts and times, on standard error")
+      ->type_name("[=json]")
+      ->transform(CLI::Validator(check_stats, ""));
+}
+
+std::span<const Choice> inclusions() { return inclusion_choices; }
+
+std::string_view backend_name(Backend backend) { return backend == Backend::llvm ? "llvm" : "interpreter"; }
+
+std::string_view precision_name(Type precision) { return precision == f32 ? "float" : "double"; }
+
+}  // namespace imp::tools
