@@ -26,7 +26,7 @@ std::vector<Column> columns() {
 
 void packet(benchmark::State& state, const std::string& name, unsigned registers) {
   CpuTarget target = *cpu_target("host");
-  target.register_bits = target.register_bits * registers / 2;  // a packet is two of these
+  target.packet_registers = registers;
   SearchLimits limits;
   limits.epsilon = 0x1p-11;
   Diagnostics diagnostics;

@@ -337,7 +337,7 @@ std::unique_ptr<llvm::Module> build_module(const Program& program, const CpuTarg
   Spelling spelling;
   spelling.lanes = target.lanes(program);
   spelling.register_bits = target.register_bits;
-  spelling.mask_bits = 2 * target.register_bits / spelling.lanes;
+  spelling.mask_bits = target.packet_registers * target.register_bits / spelling.lanes;
   spelling.bit_masks = target.register_bits == 512;
   spelling.fuses = has("+fma");
   spelling.upward = rounds_up(program);

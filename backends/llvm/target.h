@@ -16,9 +16,10 @@ struct CpuTarget {
   std::string features;  // "+avx2,+fma,…"
   unsigned register_bits = 128;
   bool runs_here = false;
+  unsigned packet_registers = 1;  // that a number of a packet fills (docs/decisions/packets.md)
 
-  // Rays a packet holds: two registers of the Program's widest type that it computes with in a
-  // phase (or at all, where it has no phase).
+  // Rays a packet holds: that many registers of the Program's widest type that it computes with in
+  // a phase (or at all, where it has no phase).
   unsigned lanes(const Program& program) const;
 };
 

@@ -139,7 +139,7 @@ TEST(LlvmProducts, an_object_needs_nothing_and_gives_the_kernel) {
 TEST(LlvmProducts, text_keeps_the_names_of_the_author) {
   const std::string text = *emit(everything(true), *cpu_target("avx2"), CodeForm::llvm_ir);
   for (const char* name : {"%narrowed", "%xf", "phasef:", "@inner("}) EXPECT_TRUE(has(text, name)) << name;
-  EXPECT_TRUE(has(text, "constrained.fmul.v8f32"));
+  EXPECT_TRUE(has(text, "constrained.fmul.v4f32"));
   EXPECT_FALSE(has(text, "fmul <"));
   const std::string nearest = *emit(everything(false), *cpu_target("avx2"), CodeForm::llvm_ir);
   EXPECT_FALSE(has(nearest, "constrained"));
@@ -151,10 +151,10 @@ TEST(LlvmProducts, targets) {
   EXPECT_FALSE(cpu_target("sparc").has_value());
   const Program program = parsed("program p\n  input ray x: f32\n  output x = %x\nend\n");
   EXPECT_EQ(cpu_target("avx512")->lanes(program), 32u);
-  EXPECT_EQ(cpu_target("avx2")->lanes(program), 16u);
-  EXPECT_EQ(cpu_target("sse4.1")->lanes(program), 8u);
+  EXPECT_EQ(cpu_target("avx2")->lanes(program), 8u);
+  EXPECT_EQ(cpu_target("sse4.1")->lanes(program), 4u);
   const Program doubles = parsed("program p\n  input ray x: f64\n  %y = add %x 1\n  output y = %y\nend\n");
-  EXPECT_EQ(cpu_target("avx2")->lanes(doubles), 8u);
+  EXPECT_EQ(cpu_target("avx2")->lanes(doubles), 4u);
   const Program outside = parsed(R"(
 program outside
   input ray x: f64
@@ -167,7 +167,7 @@ program outside
   end
   output t = %p.t
 end)");
-  EXPECT_EQ(cpu_target("avx2")->lanes(outside), 16u) << "f64 is not computed with in a phase";
+  EXPECT_EQ(cpu_target("avx2")->lanes(outside), 8u) << "f64 is not computed with in a phase";
   expect_agreement(outside, {ramp(-3, 0.7)});
 }
 
