@@ -382,7 +382,8 @@ class Parser : private TextReader {
   }
 
   bool is_node_number() const {
-    return token_.kind == Token::number && token_.text.find_first_not_of("0123456789") == token_.text.npos;
+    return token_.kind == Token::number &&
+           token_.text.find_first_not_of("0123456789") == std::string_view::npos;
   }
 
   // -- names --------------------------------------------------------------------------------------

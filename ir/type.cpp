@@ -13,7 +13,7 @@ std::string to_text(Type type) {
 
 std::optional<Type> type_named(std::string_view text) {
   std::uint32_t length = 0;
-  if (const auto bracket = text.find('['); bracket != text.npos) {
+  if (const auto bracket = text.find('['); bracket != std::string_view::npos) {
     if (!text.ends_with(']')) return std::nullopt;
     const std::string_view digits = text.substr(bracket + 1, text.size() - bracket - 2);
     const char* last = digits.data() + digits.size();
