@@ -16,7 +16,7 @@ void power(benchmark::State& state, Evaluation evaluation, double x) {
   const auto model = parse_model("x^500 + y^35 + z^4 = 1", "power", diagnostics);
   const auto program = evaluation_program(model->surfaces[0], evaluation, f32, diagnostics);
   const auto kernel = make_kernel(*program, {});
-  if (!kernel) return state.SkipWithError(kernel.error().c_str());
+  if (!kernel) return state.SkipWithError(kernel.error().message.c_str());
   const std::vector<Column> inputs((*kernel)->program().inputs.size(), Column(rows, x));
   for (auto _ : state) benchmark::DoNotOptimize(run_rows(**kernel, inputs, rows));
 }

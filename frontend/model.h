@@ -15,6 +15,7 @@ namespace imp {
 // parameters and time.
 struct Setting {
   std::uint32_t output = 0;
+  Span span{};  // where the file says it; invalid for a default
 };
 using Point = std::array<Setting, 3>;
 

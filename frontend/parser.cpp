@@ -230,13 +230,14 @@ Point Parser::default_point(const std::string& name, std::array<std::uint32_t, 3
 Setting Parser::setting(std::string name, bool constant) {
   const Range value = real();
   ast_.settings.push_back({std::move(name), value, constant});
-  return {static_cast<std::uint32_t>(ast_.settings.size() - 1)};
+  const Span place = value.begin < value.end ? ast_.span(ast_.nodes[value.end - 1]) : Span{};
+  return {static_cast<std::uint32_t>(ast_.settings.size() - 1), place};
 }
 
 Setting Parser::default_setting(std::string name, std::uint32_t value) {
   const std::uint32_t begin = emit(NodeKind::integer, Op::constant, value, {});
   ast_.settings.push_back({std::move(name), {begin, node_count()}, true});
-  return {static_cast<std::uint32_t>(ast_.settings.size() - 1)};
+  return {static_cast<std::uint32_t>(ast_.settings.size() - 1), {}};
 }
 
 }  // namespace imp::syntax

@@ -19,7 +19,9 @@ struct Range {
 inline constexpr Range everything{-__builtin_huge_val(), __builtin_huge_val()};
 
 // For every number node the enclosure of its values over the box of the inputs, one Range each, in
-// order; nothing for truths and for ops that the interval extension cannot bound.
-std::vector<std::optional<Range>> ranges(const Program& program, std::span<const Range> inputs);
+// order, as a kernel of type `type` computes it: so no box within ever gives wider bounds there, and
+// what is finite here never overflows. Nothing for truths and for ops that have no interval rule.
+std::vector<std::optional<Range>> ranges(const Program& program, std::span<const Range> inputs,
+                                         Type type = f64);
 
 }  // namespace imp

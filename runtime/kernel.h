@@ -26,9 +26,15 @@ struct Timings {
 // The Program as a backend gets it.
 Program lower(Program program, const KernelOptions& options, PassTrace* trace = nullptr);
 
+// What no kernel can be made of, with its place in the text where it has one.
+struct Refusal {
+  std::string message;
+  Span span;
+};
+
 // Errors say what is not to be had and what would be.
-std::expected<std::unique_ptr<Kernel>, std::string> make_kernel(Program program, const KernelOptions& options,
-                                                                Timings* timings = nullptr);
+std::expected<std::unique_ptr<Kernel>, Refusal> make_kernel(Program program, const KernelOptions& options,
+                                                            Timings* timings = nullptr);
 
 // One input column: a value for every row, or a single one for all.
 using Column = std::vector<double>;

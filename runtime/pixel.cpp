@@ -109,7 +109,7 @@ class Pixel {
     const auto pick = [&](Expr p, Expr q) { return select(a_first, p, q); };
     const Expr first = pick(a.found.verdict, b.found.verdict), other = pick(b.found.verdict, a.found.verdict);
     const Expr gap = abs(place(a.found) - place(b.found));
-    const double run = std::max(0.02, 32 * options_.limits.epsilon.value_or(0));     // the longest, and more
+    const double run = 2 * longest_run(epsilon_of(options_.limits, type_));
     const Truth other_seen = select(a_first, b.found.something, a.found.something);  // not given up before it
     const Truth certain = other >= verdict_miss || (other_seen && gap > run);
     Sight result;

@@ -49,7 +49,7 @@ std::optional<Renderer> Renderer::make(const Model& model, const RenderOptions& 
          std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count()});
   auto kernel = make_kernel(*std::move(program), options.kernel, timings);
   if (!kernel) {
-    diagnostics.error(kernel.error());
+    diagnostics.error(kernel.error().span, kernel.error().message);
     return std::nullopt;
   }
   return Renderer(model, options, *std::move(kernel));

@@ -20,12 +20,12 @@ struct Surroundings {
 };
 
 Surroundings surroundings(const Model& model, const Numbers& numbers) {
-  if (!model.domain) return {dvec3(0), default_domain * std::sqrt(3.0)};
+  if (!model.domain) return {dvec3(0), default_domain};  // tight: few know their domain yet
   if (const auto* sphere = std::get_if<Sphere>(&*model.domain))
     return {vector(numbers(sphere->center)), numbers(sphere->radius)};
   const auto& box = std::get<Box>(*model.domain);
   const dvec3 lo = vector(numbers(box.min)), hi = vector(numbers(box.max));
-  return {0.5 * (lo + hi), 0.5 * glm::length(hi - lo)};
+  return {0.5 * (lo + hi), 0.4 * glm::length(hi - lo)};  // the corners are seldom of interest
 }
 
 // An orthonormal frame: where the camera is, looks, and what is right and down in the picture.
@@ -111,11 +111,9 @@ void set_domain(FrameValues& values, const Model& model, const Numbers& numbers)
 
 bool check_view(const Model& model, const UniformValues& uniforms, Diagnostics& diagnostics) {
   const Numbers numbers(model, uniforms);
-  const auto place = [&](Setting setting) {
-    return model.settings.graph.span(model.settings.outputs[setting.output].id);
-  };
   const auto demand = [&](bool holds, Setting culprit, const char* message) {
-    if (!holds) diagnostics.error(place(culprit), message);
+    if (!holds) diagnostics.error(culprit.span, message);
+    return holds;
   };
   if (model.camera) {
     const Camera& camera = *model.camera;
@@ -128,9 +126,10 @@ bool check_view(const Model& model, const UniformValues& uniforms, Diagnostics& 
   }
   if (model.domain) {
     if (const auto* box = std::get_if<Box>(&*model.domain)) {
-      for (std::size_t i = 0; i < 3; ++i)
-        demand(numbers(box->min[i]) < numbers(box->max[i]), box->max[i],
-               "the domain is empty: this corner is not above the other one");
+      bool open = true;
+      for (std::size_t i = 0; i < 3 && open; ++i)
+        open = demand(numbers(box->min[i]) < numbers(box->max[i]), box->max[i],
+                      "the domain is empty: this coordinate is not above that of the other corner");
     } else {
       const Sphere& sphere = std::get<Sphere>(*model.domain);
       demand(numbers(sphere.radius) > 0, sphere.radius, "the domain is empty: its radius is not above 0");

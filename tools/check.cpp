@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "runtime/view.h"
 #include "tools/input.h"
 #include "tools/verbs.h"
 
@@ -47,7 +48,9 @@ struct Check {
     Json all = Json::array();
     for (const std::string& file : files) {
       Diagnostics diagnostics;
-      if (!read_model(file, diagnostics)) exit = failed;
+      const auto model = read_model(file, diagnostics);
+      const auto uniforms = model ? uniform_values(*model, {}, {}, diagnostics) : std::nullopt;
+      if (!uniforms || !check_view(*model, *uniforms, diagnostics)) exit = failed;
       if (!json) print(diagnostics);
       for (const Diagnostic& diagnostic : diagnostics.all())
         all.push_back(to_json(diagnostics.sources, diagnostic, shown_name(file)));

@@ -132,7 +132,7 @@ bool run(const TableJob& job, const Options& options, Diagnostics& diagnostics) 
   time("build program", building);
   const auto kernel = make_kernel(std::move(*program), options.kernel, &timings);
   if (!kernel) {
-    diagnostics.error(kernel.error());
+    diagnostics.error(kernel.error().span, kernel.error().message);
     return false;
   }
 

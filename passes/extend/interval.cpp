@@ -10,10 +10,15 @@ namespace {
 
 using Value = IntervalRules::Value;
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
 Expr outward(Graph& graph, Type type, double value) {
   const Expr wide{&graph, graph.constant(f64, value)};
   return type == f32 ? narrow_up(wide) : wide;
 }
+
+// So far from overflow that a rounding more or less does not matter.
+double safe(Type type) { return type == f32 ? 1e30 : 1e300; }
 
 Interval constant_interval(Graph& graph, Type type, const Enclosure& value) {
   if (value.lo > value.hi) {
@@ -34,7 +39,6 @@ std::vector<std::optional<Value>> replay_intervals(const Program& f, std::span<c
   IMP_ASSERT(inputs.size() == f.inputs.size() && !inputs.empty(), "an enclosure of every input");
   Graph& graph = *inputs[0].hi.graph;
   const Type type = inputs[0].hi.type();
-  const double safe = type == f32 ? 1e30 : 1e300;  // far enough from overflow for any rounding
   const auto constants = constant_values(f);
   IntervalRules rules;
   std::vector<std::optional<Value>> values(f.graph.size());
@@ -64,7 +68,7 @@ std::vector<std::optional<Value>> replay_intervals(const Program& f, std::span<c
     }
     if (values[i] && node.type.is_real()) {
       Interval& number = values[i]->number;
-      if (!known.empty() && known[i]) number.facts.bounded |= known[i]->bounded_by(safe);
+      if (!known.empty() && known[i]) number.facts.bounded |= known[i]->bounded_by(safe(type));
       graph.set_span(number.hi.id, f.graph.span(Id{i}));
     }
   }
@@ -73,12 +77,12 @@ std::vector<std::optional<Value>> replay_intervals(const Program& f, std::span<c
 
 }  // namespace
 
-std::vector<std::optional<Range>> ranges(const Program& program, std::span<const Range> inputs) {
+std::vector<std::optional<Range>> ranges(const Program& program, std::span<const Range> inputs, Type type) {
   Graph scratch;
   std::vector<Interval> boxes;
   for (const Range& range : inputs)
-    boxes.push_back(interval(outward(scratch, f64, -range.lo), outward(scratch, f64, range.hi),
-                             {range.lo >= 0, range.bounded_by(1e300)}));
+    boxes.push_back(interval(outward(scratch, type, -range.lo), outward(scratch, type, range.hi),
+                             {range.lo >= 0, range.bounded_by(safe(type))}));
   const auto values = replay_intervals(program, boxes, {}, [](Id) {});
 
   std::vector<std::optional<Range>> result(values.size());
@@ -96,7 +100,7 @@ std::vector<std::optional<Range>> ranges(const Program& program, std::span<const
 std::optional<std::vector<Interval>> enclose(const Program& f, std::span<const Interval> inputs,
                                              Diagnostics& diagnostics, std::span<const Range> domain) {
   std::vector<std::optional<Range>> known;
-  if (!domain.empty()) known = ranges(f, domain);
+  if (!domain.empty()) known = ranges(f, domain, inputs[0].hi.type());
   std::optional<Id> refused;
   const auto values = replay_intervals(f, inputs, known, [&](Id id) {
     if (!refused) refused = id;
@@ -122,7 +126,7 @@ std::optional<Program> interval_extension(const Program& f, Type type, Diagnosti
   for (const Input& input : f.inputs) {
     const Expr lo{&graph, add_input(result, input.name + "lo", f64, input.rate)};
     const Expr hi{&graph, add_input(result, input.name + "hi", f64, input.rate)};
-    no_box = no_box || !(lo <= hi);
+    no_box = no_box || !(lo <= hi) || !(lo < infinity) || !(-infinity < hi);
     boxes.push_back(type == f32 ? interval(narrow_up(-lo), narrow_up(hi)) : interval(-lo, hi));
   }
   const auto values = enclose(f, boxes, diagnostics);
@@ -134,7 +138,7 @@ std::optional<Program> interval_extension(const Program& f, Type type, Diagnosti
     const Truth empty = value.empty || no_box;
     const auto wide = [&](Expr end) { return type == f32 ? widen(end) : end; };
     const Expr lo = wide(value.lo()), hi = wide(value.hi);
-    const Expr infinite = constant_like(hi, std::numeric_limits<double>::infinity());
+    const Expr infinite = constant_like(hi, infinity);
     result.outputs.push_back({name + "lo", select(empty, infinite, lo).id});
     result.outputs.push_back({name + "hi", select(empty, -infinite, hi).id});
     result.outputs.push_back({name + "defined", (value.continuous && !empty).id});

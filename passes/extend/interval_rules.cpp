@@ -19,10 +19,17 @@ Interval strict(const Interval& a, const Interval& b, Expr nlo, Expr hi, Facts f
   return {nlo, hi, a.empty || b.empty, a.continuous && b.continuous, facts};
 }
 
-// The value of both ends where the interval is one constant point.
+// Of a step function, continuous where it takes one value.
+Interval stepped(const Interval& a, Expr nlo, Expr hi, Facts facts) {
+  return {nlo, hi, a.empty, a.continuous && equal(-nlo, hi), facts};
+}
+
+// The value where the interval is one constant point, and is one on every box.
 std::optional<double> constant_point(const Interval& a) {
-  const auto nlo = a.nlo.graph->number(a.nlo.id), hi = a.hi.graph->number(a.hi.id);
-  return nlo && hi && -*nlo == *hi ? hi : std::nullopt;
+  const Graph& graph = *a.hi.graph;
+  const auto nlo = graph.number(a.nlo.id), hi = graph.number(a.hi.id);
+  const bool always = graph.truth_value(a.continuous.id) == true && graph.truth_value(a.empty.id) == false;
+  return always && nlo && hi && -*nlo == *hi ? hi : std::nullopt;
 }
 
 bool nonpositive(const Interval& a) {
@@ -131,8 +138,8 @@ Interval IntervalRules::neg(const Interval& a) const {
 Interval IntervalRules::mul(const Interval& a, const Interval& b) const {
   if (const auto c = constant_point(b)) return scaled(a, *c);
   if (constant_point(a)) return mul(b, a);
-  if (nonpositive(b)) return neg(mul(a, neg(b)));
-  if (nonpositive(a)) return neg(mul(neg(a), b));
+  if (nonpositive(b) && !b.facts.nonnegative) return neg(mul(a, neg(b)));
+  if (nonpositive(a) && !a.facts.nonnegative) return neg(mul(neg(a), b));
   if (a.facts.nonnegative && !b.facts.nonnegative) return mul(b, a);
 
   const bool bounded = a.facts.bounded && b.facts.bounded;
@@ -162,7 +169,7 @@ Interval IntervalRules::div(const Interval& a, const Interval& b) const {
   if (const auto c = constant_point(b); c && *c != 0) {
     const Expr divisor = constant_like(a.hi, std::abs(*c));
     const Expr up = div_up(a.hi, divisor), down = div_up(a.nlo, divisor);
-    return *c > 0 ? with(a, down, up, {a.facts.nonnegative, a.facts.bounded}) : with(a, up, down);
+    return *c > 0 ? with(a, down, up, {a.facts.nonnegative, false}) : with(a, up, down);
   }
   const Expr none = zero(b.hi);
   const Truth turned = b.facts.nonnegative ? truth_of(*b.hi.graph, false) : b.hi <= 0;
@@ -187,14 +194,31 @@ Interval IntervalRules::abs(const Interval& a) const {
   return with(a, -mignitude(a), magnitude(a), {true, a.facts.bounded});
 }
 
+// min and max answer b where a is NaN (ir/ops.def), so where a may be undefined the answer may be b.
+Interval IntervalRules::or_second(const Interval& a, const Interval& b, const Interval& strict_result) const {
+  const Truth undefined = !a.continuous;
+  const auto either = [&](Expr both, Expr second) {
+    return imp::select(a.empty, second, imp::select(undefined, imp::max(both, second), both));
+  };
+  Interval result = strict_result;
+  result.nlo = either(strict_result.nlo, b.nlo);
+  result.hi = either(strict_result.hi, b.hi);
+  result.empty = b.empty;
+  const bool always = undefined.graph->truth_value(undefined.id) == false;
+  result.facts.nonnegative = strict_result.facts.nonnegative && (always || b.facts.nonnegative);
+  return result;
+}
+
 Interval IntervalRules::min(const Interval& a, const Interval& b) const {
-  return strict(a, b, imp::max(a.nlo, b.nlo), imp::min(a.hi, b.hi),
-                {a.facts.nonnegative && b.facts.nonnegative, a.facts.bounded && b.facts.bounded});
+  return or_second(a, b,
+                   strict(a, b, imp::max(a.nlo, b.nlo), imp::min(a.hi, b.hi),
+                          {a.facts.nonnegative && b.facts.nonnegative, a.facts.bounded && b.facts.bounded}));
 }
 
 Interval IntervalRules::max(const Interval& a, const Interval& b) const {
-  return strict(a, b, imp::min(a.nlo, b.nlo), imp::max(a.hi, b.hi),
-                {a.facts.nonnegative || b.facts.nonnegative, a.facts.bounded && b.facts.bounded});
+  return or_second(a, b,
+                   strict(a, b, imp::min(a.nlo, b.nlo), imp::max(a.hi, b.hi),
+                          {a.facts.nonnegative || b.facts.nonnegative, a.facts.bounded && b.facts.bounded}));
 }
 
 // Downward, sqrt(lo) is lo / sqrt_up(lo): there are no downward ops.
@@ -210,21 +234,15 @@ Interval IntervalRules::sqrt(const Interval& a) const {
 }
 
 Interval IntervalRules::floor(const Interval& a) const {
-  Interval result = with(a, imp::ceil(a.nlo), imp::floor(a.hi), a.facts);
-  result.continuous = a.continuous && equal(-result.nlo, result.hi);
-  return result;
+  return stepped(a, imp::ceil(a.nlo), imp::floor(a.hi), a.facts);
 }
 
 Interval IntervalRules::ceil(const Interval& a) const {
-  Interval result = with(a, imp::floor(a.nlo), imp::ceil(a.hi), a.facts);
-  result.continuous = a.continuous && equal(-result.nlo, result.hi);
-  return result;
+  return stepped(a, imp::floor(a.nlo), imp::ceil(a.hi), a.facts);
 }
 
 Interval IntervalRules::sign(const Interval& a) const {
-  Interval result = with(a, make(Op::sign, a.nlo), make(Op::sign, a.hi), {a.facts.nonnegative, true});
-  result.continuous = a.continuous && equal(-result.nlo, result.hi);
-  return result;
+  return stepped(a, make(Op::sign, a.nlo), make(Op::sign, a.hi), {a.facts.nonnegative, true});
 }
 
 Interval IntervalRules::mod(const Interval& a, const Interval& b) const {
@@ -234,7 +252,11 @@ Interval IntervalRules::mod(const Interval& a, const Interval& b) const {
 Interval IntervalRules::powi(const Interval& a, const Interval& exponent) const {
   const auto n = constant_point(exponent);
   IMP_ASSERT(n.has_value(), "a constant exponent");
-  if (*n == 0) return with(a, constant_like(a.hi, -1), one(a.hi), {true, true});
+  if (*n == 0) {  // 1, whatever a is
+    Interval unit = point(one(a.hi), {true, true});
+    unit.continuous = a.continuous;
+    return unit;
+  }
   const Interval positive = power(a, static_cast<unsigned>(std::abs(*n)));
   return *n > 0 ? positive : div(point(one(a.hi), {true, true}), positive);
 }

@@ -10,10 +10,11 @@
 
 namespace imp {
 
-// What is known of the bounds before any box is.
+// What holds of the computed bounds (not only of the real values) for every box that may come. A rule
+// may drop a fact, never invent one.
 struct Facts {
-  bool nonnegative = false;  // lo >= 0, as computed
-  bool bounded = false;      // both ends finite, as computed
+  bool nonnegative = false;  // lo >= 0
+  bool bounded = false;      // both ends are finite: they never overflow
 };
 
 struct Interval {
@@ -76,6 +77,9 @@ class IntervalRules {
   Possible or_(const Possible& a, const Possible& b) const;
   Possible not_(const Possible& a) const;
   Interval select(const Possible& c, const Interval& a, const Interval& b) const;
+
+ private:
+  Interval or_second(const Interval& a, const Interval& b, const Interval& strict_result) const;
 };
 
 }  // namespace imp

@@ -4,6 +4,7 @@
 // that builds its phases into a Program; it runs on every backend.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <optional>
@@ -41,9 +42,20 @@ struct SearchLimits {
 // default, and the least there is.
 constexpr double finest_epsilon(Type type) { return type == f32 ? 0x1p-22 : 0x1p-30; }
 
+// What a search with these limits does not split further.
+inline double epsilon_of(const SearchLimits& limits, Type type) {
+  return std::max(finest_epsilon(type), limits.epsilon.value_or(finest_epsilon(type)));
+}
+
 // The longest piece, as a share of the segment, on which a sign change alone certifies a hit
 // (where df/ds excludes 0, any length does).
 inline constexpr double certified_length = 1e-5;
+
+// Neighbouring pieces of length epsilon that may hold a root are taken together up to this length.
+// Where the limit is hit one more piece may be in, so what is found lies within twice of it.
+constexpr double longest_run(double epsilon) {
+  return std::max({certified_length, 16 * epsilon, std::min(256 * epsilon, 1e-4)});
+}
 
 // The verdicts of a kernel, as numbers.
 inline constexpr double verdict_hit = 1, verdict_miss = 0, verdict_undecided = -1;

@@ -37,9 +37,7 @@ Expr proven_sign(const Interval& f) {
 Found stackless(Program& program, const RayFunction& f, const SearchLimits& limits) {
   const Expr zero_ = zero(f.like), one_ = one(f.like);
   const Truth no = truth_of(program.graph, false), yes = truth_of(program.graph, true);
-  const double finest = finest_epsilon(f.like.type());
-  const double epsilon = std::max(finest, limits.epsilon.value_or(finest));
-  const double longest_run = std::max({certified_length, 16 * epsilon, std::min(256 * epsilon, 1e-4)});
+  const double epsilon = epsilon_of(limits, f.like.type());
 
   Loop loop(program, "bisect", limits.steps);
   const Expr s = loop.state("s", zero_);
@@ -76,7 +74,7 @@ Found stackless(Program& program, const RayFunction& f, const SearchLimits& limi
   loop.next(smooth, smooth && (!unsplit || bound.continuous));
   loop.next(steps, steps + 1.0);
   loop.enter_if(f.exists);
-  loop.again_while(!closed && next_s < 1 && !(unsplit && end - run_start > longest_run));
+  loop.again_while(!closed && next_s < 1 && !(unsplit && end - run_start > longest_run(epsilon)));
 
   const Expr a = loop.result(run), b = loop.result(s);
   const Truth found = loop.result(open);

@@ -85,7 +85,7 @@ std::vector<RunnableStage> runnable(const Pipeline& pipeline, Backend backend) {
   std::vector<RunnableStage> stages;
   for (const Stage& stage : pipeline) {
     auto kernel = make_kernel(stage.program, {.backend = backend});
-    EXPECT_TRUE(kernel.has_value()) << kernel.error();
+    EXPECT_TRUE(kernel.has_value()) << kernel.error().message;
     stages.push_back({stage.cells, std::move(kernel).value()});
   }
   return stages;

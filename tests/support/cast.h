@@ -33,7 +33,7 @@ struct Answer {
 
 inline std::unique_ptr<Kernel> kernel_of(Program program, const KernelOptions& options) {
   auto kernel = make_kernel(std::move(program), options);
-  if (!kernel) throw std::runtime_error(kernel.error());
+  if (!kernel) throw std::runtime_error(kernel.error().message);
   return *std::move(kernel);
 }
 
