@@ -102,10 +102,6 @@ Interval scaled(const Interval& a, double c) {
 
 }  // namespace
 
-Truth may_be_zero(const Interval& a) { return !is_positive(a) && !is_negative(a) && !a.empty; }
-Truth is_positive(const Interval& a) { return a.nlo < 0; }
-Truth is_negative(const Interval& a) { return a.hi < 0; }
-
 Interval interval(Expr nlo, Expr hi, Facts facts) {
   return {nlo, hi, truth_of(*hi.graph, false), truth_of(*hi.graph, true), facts};
 }

@@ -32,9 +32,9 @@ struct Possible {
 };
 
 // NaN may be zero; the empty set is not.
-Truth may_be_zero(const Interval& a);
-Truth is_positive(const Interval& a);
-Truth is_negative(const Interval& a);
+inline Truth is_positive(const Interval& a) { return a.nlo < 0; }
+inline Truth is_negative(const Interval& a) { return a.hi < 0; }
+inline Truth may_be_zero(const Interval& a) { return !is_positive(a) && !is_negative(a) && !a.empty; }
 
 // The interval [lo, hi], which is not empty; and {value}.
 Interval interval(Expr nlo, Expr hi, Facts facts = {});
