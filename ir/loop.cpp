@@ -1,11 +1,18 @@
 #include "ir/loop.h"
 
+#include <algorithm>
+
 #include "ir/assert.h"
 
 namespace imp {
 
 Loop::Loop(Program& program, std::string name, std::uint32_t steps)
     : program_(&program), index_(program.phases.size()) {
+  const auto taken = [&](const std::string& n) {
+    return std::ranges::any_of(program.phases, [&](const Phase& p) { return p.name == n; });
+  };
+  const std::string wanted = name;
+  for (int i = 2; taken(name); ++i) name = wanted + std::to_string(i);
   const Id yes = program.graph.constant(true);
   program.phases.push_back({std::move(name), {}, yes, yes, steps});
 }

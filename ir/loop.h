@@ -16,7 +16,8 @@ namespace imp {
 
 class Loop {
  public:
-  // Appends a phase of at most `steps` steps to `program`, which must outlive the Loop.
+  // Appends a phase of at most `steps` steps to `program`, which must outlive the Loop. A
+  // name that is taken gets a number.
   Loop(Program& program, std::string name, std::uint32_t steps);
 
   Expr state(std::string name, Expr init);
