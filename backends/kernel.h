@@ -17,6 +17,12 @@ struct Batch {
   std::span<void* const> outputs;       // one an output: `size` values; null: not wanted
 };
 
+// Why no kernel can be made of a Program, with the place in the text where it has one.
+struct Refusal {
+  std::string message;
+  Span span{};
+};
+
 class Kernel {
  public:
   virtual ~Kernel() = default;

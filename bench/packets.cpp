@@ -33,7 +33,7 @@ void packet(benchmark::State& state, const std::string& name, unsigned registers
   const auto program =
       cast_program(example(name).surfaces[0], *search_named("stackless"), limits, f32, diagnostics);
   const auto kernel = compile(lower(*program, {}), target);
-  if (!kernel) return state.SkipWithError(kernel.error().c_str());
+  if (!kernel) return state.SkipWithError(kernel.error().message.c_str());
   const auto inputs = columns();
   for (auto _ : state) benchmark::DoNotOptimize(run_rows(**kernel, inputs, rays));
   state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * rays));

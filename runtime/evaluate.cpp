@@ -7,6 +7,7 @@
 #include "passes/inline.h"
 #include "passes/precision.h"
 #include "runtime/camera.h"
+#include "runtime/numbers.h"
 #include "runtime/search/segment.h"
 
 namespace imp {
@@ -71,7 +72,7 @@ std::optional<Program> cast_program(const Surface& surface, const Search& search
   const Expr tmin = input("tmin"), tmax = input("tmax");
   std::vector<Uniform> uniforms;
   for (std::size_t i = 3; i < surface.f.inputs.size(); ++i)
-    uniforms.push_back(uniform(input("parameter." + surface.f.inputs[i].name), precision));
+    uniforms.push_back(uniform(input(uniform_input(surface.f.inputs[i].name)), precision));
 
   const Segment segment = segment_of_ray(o, d, tmin, tmax, precision);
   const auto f = ray_function(surface.f, segment, uniforms, std::nullopt, diagnostics);

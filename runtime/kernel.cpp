@@ -2,11 +2,8 @@
 
 #include <chrono>
 
-#include <fmt/format.h>
-
 #include "backends/llvm/compile.h"
 #include "ir/assert.h"
-#include "ir/regions.h"
 #include "passes/round_to_nearest.h"
 
 namespace imp {
@@ -18,42 +15,20 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-// More would take LLVM minutes.
-constexpr std::size_t most_operations = 20000;
-
-// What the LLVM backend would refuse, said with its place.
-std::optional<Refusal> without_kernel_form(const Program& program) {
-  std::size_t operations = 0;
-  for (const auto& nodes : schedule(program)) {
-    operations += nodes.size();
-    for (const Id id : nodes)
-      if (const OpInfo& op = info(program.graph[id].op); op.kind == OpKind::elementary)
-        return Refusal{fmt::format("'{}' has no kernel form yet; use --backend=interpreter", op.name),
-                       program.graph.span(id)};
-  }
-  if (operations <= most_operations) return std::nullopt;
-  return Refusal{fmt::format("this takes {} operations, and machine code is made of at most {}; "
-                             "use --backend=interpreter",
-                             operations, most_operations),
-                 {}};
-}
-
 std::expected<std::unique_ptr<Kernel>, Refusal> compile_for_cpu(const Program& program,
                                                                 const std::string& name, Timings* timings) {
   const auto target = cpu_target(name);
   if (!target) {
     std::string known;
     for (const CpuTarget& each : cpu_targets()) known += (known.empty() ? "" : ", ") + each.name;
-    return std::unexpected(Refusal{"unknown target '" + name + "'; there are: " + known, {}});
+    return std::unexpected(Refusal{"unknown target '" + name + "'; there are: " + known});
   }
-  if (auto refusal = without_kernel_form(program)) return std::unexpected(*std::move(refusal));
   CompileTimes times;
   auto kernel = compile(program, *target, &times);
   if (timings)
     timings->entries.insert(timings->entries.end(),
                             {{"build code", times.build}, {"generate code", times.codegen}});
-  if (!kernel) return std::unexpected(Refusal{kernel.error(), {}});
-  return *std::move(kernel);
+  return kernel;
 }
 
 }  // namespace
@@ -72,7 +47,7 @@ std::expected<std::unique_ptr<Kernel>, Refusal> make_kernel(Program program, con
     case Backend::llvm:        return compile_for_cpu(program, options.target, timings);
     case Backend::interpreter: return interpret(std::move(program));
   }
-  return std::unexpected(Refusal{"unknown backend", {}});
+  return std::unexpected(Refusal{"unknown backend"});
 }
 
 std::vector<Column> run_rows(const Kernel& kernel, std::span<const Column> inputs, std::size_t rows) {

@@ -26,12 +26,6 @@ struct Timings {
 // The Program as a backend gets it.
 Program lower(Program program, const KernelOptions& options, PassTrace* trace = nullptr);
 
-// What no kernel can be made of, with its place in the text where it has one.
-struct Refusal {
-  std::string message;
-  Span span;
-};
-
 // Errors say what is not to be had and what would be.
 std::expected<std::unique_ptr<Kernel>, Refusal> make_kernel(Program program, const KernelOptions& options,
                                                             Timings* timings = nullptr);

@@ -27,6 +27,9 @@ std::optional<UniformValues> uniform_values(const Model& model, std::span<const 
 // Names of the uniforms in that order.
 std::vector<std::string> uniform_names(const Model& model);
 
+// What a uniform is called as an input of a kernel that has inputs of its own.
+inline std::string uniform_input(const std::string& name) { return "parameter." + name; }
+
 // Every Setting's value, by Setting::output.
 class Numbers {
  public:

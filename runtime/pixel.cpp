@@ -45,7 +45,7 @@ class Pixel {
     segment_ = segment_of_numbers(to(type_, ray_.origin), to(type_, ray_.direction), to(type_, clip_.near),
                                   to(type_, clip_.far));
     for (const std::string& name : uniform_names(model_))
-      uniforms_.push_back(uniform(input("parameter." + name, f64, Rate::frame), type_));
+      uniforms_.push_back(uniform(input(uniform_input(name), f64, Rate::frame), type_));
 
     std::optional<Sight> first;
     for (const std::size_t index : chosen_surfaces()) {

@@ -62,8 +62,8 @@ Picture Renderer::frame(const UniformValues& uniforms, std::stop_token stop,
   const auto values = frame_values(*model_, numbers, options_.width, options_.height);
   const FrameValue frame_value = [&](const Input& input) -> const void* {
     if (input.type == f32) return &values.at(input.name);
-    return &uniforms[static_cast<std::size_t>(
-        std::ranges::find(names, input.name.substr(std::string_view("parameter.").size())) - names.begin())];
+    const auto it = std::ranges::find(names, input.name, uniform_input);
+    return &uniforms[static_cast<std::size_t>(it - names.begin())];
   };
 
   Picture picture{options_.width, options_.height, {}, {}, {}, {}, {}};

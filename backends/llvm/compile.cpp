@@ -42,12 +42,12 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-std::expected<llvm::SmallVector<char, 0>, std::string> code(const Program& program, const CpuTarget& target,
-                                                            CodeForm form, CompileTimes& times) {
+std::expected<llvm::SmallVector<char, 0>, Refusal> code(const Program& program, const CpuTarget& target,
+                                                        CodeForm form, CompileTimes& times) {
   Stopwatch watch;
-  if (std::string why = refusal(program); !why.empty()) return std::unexpected(std::move(why));
+  if (auto why = refusal(program)) return std::unexpected(*std::move(why));
   auto machine = target_machine(target);
-  if (!machine) return std::unexpected(machine.error());
+  if (!machine) return std::unexpected(Refusal{machine.error()});
 
   llvm::LLVMContext context;
   context.setDiscardValueNames(form == CodeForm::object);
@@ -71,24 +71,25 @@ llvm::Expected<std::unique_ptr<llvm::orc::LLJIT>> load(std::unique_ptr<llvm::Mem
 
 }  // namespace
 
-std::expected<std::unique_ptr<Kernel>, std::string> compile(const Program& program, const CpuTarget& target,
-                                                            CompileTimes* times) {
-  if (!target.runs_here) return std::unexpected("this processor cannot run code for '" + target.name + "'");
+std::expected<std::unique_ptr<Kernel>, Refusal> compile(const Program& program, const CpuTarget& target,
+                                                        CompileTimes* times) {
+  if (!target.runs_here)
+    return std::unexpected(Refusal{"this processor cannot run code for '" + target.name + "'"});
   CompileTimes spent;
   auto bytes = code(program, target, CodeForm::object, spent);
   if (!bytes) return std::unexpected(bytes.error());
 
   Stopwatch watch;
   auto jit = load(llvm::MemoryBuffer::getMemBufferCopy({bytes->data(), bytes->size()}, program.name));
-  if (!jit) return std::unexpected(llvm::toString(jit.takeError()));
+  if (!jit) return std::unexpected(Refusal{llvm::toString(jit.takeError())});
   auto entry = (*jit)->lookup(kernel_symbol(program));
-  if (!entry) return std::unexpected(llvm::toString(entry.takeError()));
+  if (!entry) return std::unexpected(Refusal{llvm::toString(entry.takeError())});
   spent.codegen += watch.lap();
   if (times != nullptr) *times = spent;
   return std::make_unique<JitKernel>(program, std::move(*jit), entry->toPtr<Entry>());
 }
 
-std::expected<std::string, std::string> emit(const Program& program, const CpuTarget& target, CodeForm form) {
+std::expected<std::string, Refusal> emit(const Program& program, const CpuTarget& target, CodeForm form) {
   CompileTimes times;
   auto bytes = code(program, target, form, times);
   if (!bytes) return std::unexpected(bytes.error());

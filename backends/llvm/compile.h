@@ -19,10 +19,10 @@ struct CompileTimes {
 
 // A kernel in this process. An error where the target does not run here, or the Program holds an
 // op that no kernel can hold ("'sin' has no kernel form; …").
-std::expected<std::unique_ptr<Kernel>, std::string> compile(const Program& program, const CpuTarget& target,
-                                                            CompileTimes* times = nullptr);
+std::expected<std::unique_ptr<Kernel>, Refusal> compile(const Program& program, const CpuTarget& target,
+                                                        CompileTimes* times = nullptr);
 
 // The same code as text or as the bytes of an object file, for any target.
-std::expected<std::string, std::string> emit(const Program& program, const CpuTarget& target, CodeForm form);
+std::expected<std::string, Refusal> emit(const Program& program, const CpuTarget& target, CodeForm form);
 
 }  // namespace imp

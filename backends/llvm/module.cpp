@@ -23,6 +23,9 @@ constexpr std::uint32_t mxcsr_upward = 0x5f80;
 // Scratch memory is on the stack: this many values for each ray. Tables that are only read may be longer.
 constexpr std::uint32_t longest_table = 4096;
 
+// The time of code generation grows faster than its input: more would take minutes.
+constexpr std::size_t most_operations = 20000;
+
 // A column of a batch that has one value a ray. The last packet, if it is not full, works on a buffer.
 struct Column {
   Type type;
@@ -310,21 +313,28 @@ std::string kernel_symbol(const Program& program) {
   return symbol;
 }
 
-std::string refusal(const Program& program) {
-  for (const auto& nodes : schedule(program))
+std::optional<Refusal> refusal(const Program& program) {
+  std::size_t operations = 0;
+  for (const auto& nodes : schedule(program)) {
+    operations += nodes.size();
     for (const Id id : nodes) {
       const Node node = program.graph[id];
       const OpInfo& op = info(node.op);
+      const auto refuse = [&](std::string why) { return Refusal{std::move(why), program.graph.span(id)}; };
       if (node.type.length > longest_table)
-        return "a table of " + std::to_string(node.type.length) + " values is too long for a kernel; " +
-               std::to_string(longest_table) + " is the most";
-      if (node.op == Op::powi) return "'powi' has no kernel form: the power pass must expand it first";
+        return refuse("a table of " + std::to_string(node.type.length) +
+                      " values is too long for a kernel; " + std::to_string(longest_table) + " is the most");
+      if (node.op == Op::powi)
+        return refuse("'powi' has no kernel form: the power pass must expand it first");
       if (op.kind != OpKind::structure && op_builder(op.llvm) == nullptr)
-        return "'" + std::string(op.name) + "' has no kernel form yet; use --backend=interpreter";
+        return refuse("'" + std::string(op.name) + "' has no kernel form yet; use --backend=interpreter");
       if (node.op != Op::call) continue;
-      if (std::string why = refusal(*program.callees[node.high()]); !why.empty()) return why;
+      if (auto why = refusal(*program.callees[node.high()])) return why;
     }
-  return {};
+  }
+  if (operations <= most_operations) return std::nullopt;
+  return Refusal{"this takes " + std::to_string(operations) + " operations, and a kernel has at most " +
+                 std::to_string(most_operations) + "; use --backend=interpreter"};
 }
 
 std::unique_ptr<llvm::Module> build_module(const Program& program, const CpuTarget& target,

@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include "backends/kernel.h"
 #include "backends/llvm/target.h"
 
 namespace imp {
@@ -18,7 +19,7 @@ namespace imp {
 std::string kernel_symbol(const Program& program);
 
 // What keeps the Program from having a kernel, or nothing.
-std::string refusal(const Program& program);
+std::optional<Refusal> refusal(const Program& program);
 
 // Of a Program that is not refused.
 std::unique_ptr<llvm::Module> build_module(const Program& program, const CpuTarget& target,

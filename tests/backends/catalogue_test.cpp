@@ -58,7 +58,7 @@ TEST(Avx512, uses_its_registers_and_no_library) {
     const auto program = cast_program(model.surfaces[0], searches().front(), {}, precision, diagnostics);
     ASSERT_TRUE(program) << to_text(diagnostics);
     const auto assembly = emit(lower(*program, {}), cpu_target("avx512").value(), CodeForm::assembly);
-    ASSERT_TRUE(assembly) << assembly.error();
+    ASSERT_TRUE(assembly) << assembly.error().message;
     EXPECT_TRUE(assembly->contains("zmm"));
     for (std::size_t at = 0; (at = assembly->find("\tcall", at)) != std::string::npos; ++at) {
       const std::string line = assembly->substr(at, assembly->find('\n', at) - at);

@@ -82,7 +82,7 @@ TEST(LlvmProducts, assembly_for_every_target) {
     ASSERT_EQ(verify(program), "");
     for (const CpuTarget& target : cpu_targets()) {
       const auto text = emit(program, target, CodeForm::assembly);
-      ASSERT_TRUE(text.has_value()) << text.error();
+      ASSERT_TRUE(text.has_value()) << text.error().message;
       expect_own_calls_only(*text);
       EXPECT_TRUE(has(*text, "imp_every_thing:")) << target.name;
       if (target.name == "host") continue;
@@ -171,11 +171,32 @@ end)");
   expect_agreement(outside, {ramp(-3, 0.7)});
 }
 
+TEST(LlvmProducts, what_would_take_minutes_is_refused) {
+  Program program{.name = "long"};
+  const Id x = add_input(program, "x", f32, Rate::ray);
+  Id sum = x;
+  for (int i = 0; i < 20001; ++i) sum = program.graph.add(Op::add, {sum, x});
+  program.outputs.push_back({"sum", sum});
+  const auto kernel = compile(program, *cpu_target("host"));
+  ASSERT_FALSE(kernel.has_value());
+  EXPECT_EQ(kernel.error().message,
+            "this takes 20001 operations, and a kernel has at most 20000; use --backend=interpreter");
+}
+
+TEST(LlvmProducts, a_refusal_has_the_place_of_the_op) {
+  Program program{.name = "sine"};
+  const Id x = add_input(program, "x", f32, Rate::ray);
+  const Id sine = program.graph.add(Op::sin, {x});
+  program.graph.set_span(sine, {0, 4, 10});
+  program.outputs.push_back({"y", sine});
+  EXPECT_EQ(compile(program, *cpu_target("host")).error().span, (Span{0, 4, 10}));
+}
+
 TEST(LlvmProducts, ops_without_a_kernel_form_are_refused_by_name) {
   const CpuTarget target = *cpu_target("host");
   const auto refused = [&](const std::string& text) {
     const auto kernel = compile(parsed(text), target);
-    return kernel ? "compiled" : kernel.error();
+    return kernel ? "compiled" : kernel.error().message;
   };
   EXPECT_EQ(refused("program p\n  input ray x: f32\n  %y = sin %x\n  output y = %y\nend\n"),
             "'sin' has no kernel form yet; use --backend=interpreter");
@@ -193,7 +214,7 @@ TEST(LlvmProducts, ops_without_a_kernel_form_are_refused_by_name) {
   CpuTarget foreign = target;
   foreign.name = "avx512";
   foreign.runs_here = false;
-  EXPECT_EQ(compile(parsed("program p\n  input ray x: f32\n  output x = %x\nend\n"), foreign).error(),
+  EXPECT_EQ(compile(parsed("program p\n  input ray x: f32\n  output x = %x\nend\n"), foreign).error().message,
             "this processor cannot run code for 'avx512'");
 }
 

@@ -33,7 +33,7 @@ inline Program parsed(const std::string& text) {
 inline std::unique_ptr<Kernel> compiled(const Program& program, const CpuTarget& target) {
   EXPECT_EQ(verify(program), "");
   auto kernel = compile(program, target);
-  EXPECT_TRUE(kernel.has_value()) << kernel.error();
+  EXPECT_TRUE(kernel.has_value()) << kernel.error().message;
   return std::move(kernel).value();
 }
 
