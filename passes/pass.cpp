@@ -9,12 +9,14 @@
 #include "ir/text.h"
 #include "ir/verify.h"
 #include "passes/canonicalize.h"
+#include "passes/elementary/lower.h"
 #include "passes/power.h"
 
 namespace imp {
 namespace {
 
 constexpr Pass kernel[] = {
+    {"elementary", Preserves::value, lower_elementary},
     {"powers", Preserves::bits, reduce_powers},
     {"canonicalize", Preserves::bits, canonicalize},
     {"dead-code", Preserves::bits, compact},

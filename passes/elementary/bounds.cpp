@@ -1,0 +1,80 @@
+#include "passes/elementary/bounds.h"
+
+#include <cmath>
+#include <limits>
+
+#include "ir/assert.h"
+
+namespace imp::elementary {
+namespace {
+
+struct Row {
+  Op op;
+  double f32_ulps, f64_ulps;
+  bool never_negative;
+};
+
+constexpr Row rows[] = {
+    {Op::exp, 2, 4, true},    {Op::log, 2, 4, false},  {Op::pow, 2, 4, true},    {Op::cbrt, 2, 4, false},
+    {Op::sin, 2, 4, false},   {Op::cos, 2, 4, false},  {Op::tan, 2, 4, false},   {Op::asin, 2, 4, false},
+    {Op::acos, 2, 4, true},   {Op::atan, 2, 4, false}, {Op::atan2, 2, 4, false}, {Op::sinh, 2, 4, false},
+    {Op::cosh, 2, 4, true},   {Op::tanh, 2, 4, false}, {Op::asinh, 2, 4, false}, {Op::acosh, 2, 4, true},
+    {Op::atanh, 2, 4, false},
+};
+
+const Row* row_of(Op op) {
+  for (const Row& row : rows)
+    if (row.op == op) return &row;
+  return nullptr;
+}
+
+double epsilon(Type type) { return type == f32 ? 0x1p-23 : 0x1p-52; }
+double smallest_normal(Type type) { return type == f32 ? 0x1p-126 : 0x1p-1022; }
+double largest(Type type) {
+  return type == f32 ? std::numeric_limits<float>::max() : std::numeric_limits<double>::max();
+}
+
+// An error of n ulps is at most n eps of the exact value, and so at most n eps / (1 - n eps) of the
+// computed one; one eps more pays for that.
+double share(const Row& row, Type type) {
+  return (1 + (type == f32 ? row.f32_ulps : row.f64_ulps)) * epsilon(type);
+}
+
+// v (1 + share) where v > 0, v (1 - share) where v < 0.
+Expr grown(const Row& row, Expr v) {
+  const double c = share(row, v.type());
+  return mul_up(v, select(v < 0, constant_like(v, 1 - c), constant_like(v, 1 + c)));
+}
+
+}  // namespace
+
+std::optional<double> ulps(Op op, Type type) {
+  const Row* row = row_of(op);
+  if (!row) return std::nullopt;
+  return type == f32 ? row->f32_ulps : row->f64_ulps;
+}
+
+double largest_angle(Type type) { return type == f32 ? 0x1p14 : 0x1p25; }
+
+// A denormal is off by an ulp at most, which the rounding of its product pays; but for those of
+// functions that fade out to 0, exp and pow, which end at the smallest normal number. What overflows
+// passes the value on the way down only.
+Expr above(Op op, Expr value) {
+  const Row* row = row_of(op);
+  IMP_ASSERT(row, "an elementary function");
+  if (!row->never_negative) return grown(*row, value);
+  const Expr up = mul_up(value, constant_like(value, 1 + share(*row, value.type())));
+  return max(up, constant_like(up, smallest_normal(up.type())));
+}
+
+Expr minus_below(Op op, Expr value) {
+  const Row* row = row_of(op);
+  IMP_ASSERT(row, "an elementary function");
+  const Type type = value.type();
+  const Expr none = zero(value), lowest = constant_like(value, -largest(type));
+  if (!row->never_negative) return max(grown(*row, -value), lowest);
+  const Expr down = mul_up(-value, constant_like(value, 1 - share(*row, type)));
+  return select(value < constant_like(value, smallest_normal(type)), none, max(down, lowest));
+}
+
+}  // namespace imp::elementary

@@ -1,0 +1,134 @@
+#include "tests/prove/elementary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <mutex>
+#include <thread>
+
+#include "tests/support/arguments.h"
+#include "tests/support/function_error.h"
+
+namespace imp::prove {
+namespace {
+
+using test::FunctionError;
+
+constexpr Op ops[] = {
+#define OP(name, arity, kind, llvm, glsl, meaning) Op::name,
+#include "ir/ops.def"
+};
+
+constexpr std::size_t batch = 1 << 16;
+
+// Calls `measure(batch number)` for all numbers below `count`, on all cores.
+template <class Measure>
+FunctionError on_all_cores(std::uint64_t count, Measure measure) {
+  FunctionError total;
+  std::mutex mutex;
+  std::atomic<std::uint64_t> next = 0;
+  const auto work = [&] {
+    FunctionError mine;
+    for (std::uint64_t i = next++; i < count; i = next++) mine.add(measure(i));
+    const std::lock_guard lock(mutex);
+    total.add(mine);
+  };
+  std::vector<std::jthread> threads;
+  for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i) threads.emplace_back(work);
+  work();
+  threads.clear();
+  return total;
+}
+
+FunctionError all_floats(const test::FunctionKernel& kernel, std::uint64_t stride) {
+  const std::uint64_t floats = (std::uint64_t{1} << 32) / stride;
+  return on_all_cores((floats + batch - 1) / batch, [&](std::uint64_t i) {
+    std::vector<double> x;
+    for (std::uint64_t k = i * batch; k < std::min(floats, (i + 1) * batch); ++k)
+      x.push_back(test::float_of_bits(static_cast<std::uint32_t>(k * stride)));
+    return kernel.measure(x, {});
+  });
+}
+
+FunctionError random_arguments(const test::FunctionKernel& kernel, Type type, std::uint64_t samples) {
+  return on_all_cores((samples + batch - 1) / batch, [&](std::uint64_t i) {
+    std::mt19937_64 random(i);
+    std::vector<double> x, y;
+    for (std::size_t k = 0; k < batch; ++k) {
+      x.push_back(test::random_argument(random, type));
+      y.push_back(test::random_argument(random, type));
+    }
+    return kernel.measure(x, y);
+  });
+}
+
+FunctionError special_arguments(const test::FunctionKernel& kernel, Op op, Type type) {
+  const auto special = test::special_arguments(type);
+  if (info(op).arity == 1) return kernel.measure(special, {});
+  FunctionError total;
+  for (const double y : special) total.add(kernel.measure(special, std::vector(special.size(), y)));
+  return total;
+}
+
+struct Row {
+  std::string text;
+  bool holds;
+};
+
+Row row(Op op, Type type, bool upward, const ElementaryOptions& options) {
+  const test::FunctionKernel kernel(op, type, upward);
+  FunctionError error = special_arguments(kernel, op, type);
+  error.add(type == f32 && info(op).arity == 1 ? all_floats(kernel, options.stride)
+                                               : random_arguments(kernel, type, options.samples));
+  const double bound = *elementary::ulps(op, type);
+  const bool holds = error.ulps <= bound && error.wrong_kind == 0 && error.outside == 0;
+  const std::string at =
+      info(op).arity == 1 ? fmt::format("{:a}", error.x) : fmt::format("{:a}, {:a}", error.x, error.y);
+  std::string text = fmt::format("| {} | {} | {} | {} | {:.3f} | {} | {} | {} |", info(op).name,
+                                 type == f32 ? "float" : "double", upward ? "upward" : "nearest", error.tried,
+                                 error.ulps, at, bound, holds ? "holds" : "FAILS");
+  if (error.wrong_kind + error.outside != 0)
+    fmt::print(stderr, "{}: {} of a wrong kind, {} out of bounds, the first at {:a}, {:a}\n", text,
+               error.wrong_kind, error.outside, error.wrong_x, error.wrong_y);
+  return {std::move(text), holds};
+}
+
+}  // namespace
+
+bool elementary(const ElementaryOptions& options) {
+  fmt::print("| function | type | rounding | arguments | largest error, ulps | at | bound | |\n");
+  fmt::print("| --- | --- | --- | ---: | ---: | --- | ---: | --- |\n");
+  bool all_hold = true;
+  for (const Op op : ops) {
+    if (info(op).kind != OpKind::elementary) continue;
+    const std::string name(info(op).name);
+    if (!options.only.empty() && std::ranges::find(options.only, name) == options.only.end()) continue;
+    for (const Type type : {f32, f64})
+      for (const bool upward : {false, true}) {
+        const auto file =
+            std::filesystem::path(options.done) /
+            fmt::format("{}-{}-{}", name, type == f32 ? "f32" : "f64", upward ? "up" : "nearest");
+        Row result;
+        if (std::ifstream known(file); !options.done.empty() && std::getline(known, result.text)) {
+          result.holds = result.text.ends_with("holds |");
+        } else {
+          result = row(op, type, upward, options);
+          if (!options.done.empty()) {
+            std::filesystem::create_directories(options.done);
+            std::ofstream(file) << result.text << '\n';
+          }
+        }
+        fmt::print("{}\n", result.text);
+        std::fflush(stdout);
+        all_hold &= result.holds;
+      }
+  }
+  return all_hold;
+}
+
+}  // namespace imp::prove
