@@ -289,4 +289,12 @@ std::vector<std::optional<Enclosure>> constant_values(const Program& program) {
   return result;
 }
 
+Enclosure constant_value(Op op, std::span<const double> args) {
+  Program program;
+  std::vector<Id> ids;
+  for (const double arg : args) ids.push_back(program.graph.constant(f64, arg));
+  const Id id = program.graph.add(op, ids);
+  return *constant_values(program)[id.index];
+}
+
 }  // namespace imp

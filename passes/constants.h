@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "ir/program.h"
@@ -20,5 +21,8 @@ struct Enclosure {
 // are 0 and 1, and [0, 1] where 160 bits do not decide. `nearest` then takes two numbers that may be equal
 // to be equal, and what may be an integer for one: floor(sqrt(2)*sqrt(2)) is 2, in [1, 2].
 std::vector<std::optional<Enclosure>> constant_values(const Program& program);
+
+// The value of one op, at numbers.
+Enclosure constant_value(Op op, std::span<const double> args);
 
 }  // namespace imp

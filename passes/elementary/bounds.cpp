@@ -56,25 +56,26 @@ std::optional<double> ulps(Op op, Type type) {
 
 double largest_angle(Type type) { return type == f32 ? 0x1p14 : 0x1p25; }
 
-// A denormal is off by an ulp at most, which the rounding of its product pays; but for those of
-// functions that fade out to 0, exp and pow, which end at the smallest normal number. What overflows
-// passes the value on the way down only.
+// A denormal is off by an ulp at most, which the rounding of its product pays; but for those of functions
+// that fade out to 0, exp and pow, whose bounds there are 0 and the smallest normal number. What overflows
+// passes the exact value on one side only. NaN stays.
 Expr above(Op op, Expr value) {
   const Row* row = row_of(op);
   IMP_ASSERT(row, "an elementary function");
-  if (!row->never_negative) return grown(*row, value);
-  const Expr up = mul_up(value, constant_like(value, 1 + share(*row, value.type())));
-  return max(up, constant_like(up, smallest_normal(up.type())));
+  const Type type = value.type();
+  if (!row->never_negative) return max(constant_like(value, -largest(type)), grown(*row, value));
+  return max(constant_like(value, smallest_normal(type)),
+             mul_up(value, constant_like(value, 1 + share(*row, type))));
 }
 
 Expr minus_below(Op op, Expr value) {
   const Row* row = row_of(op);
   IMP_ASSERT(row, "an elementary function");
   const Type type = value.type();
-  const Expr none = zero(value), lowest = constant_like(value, -largest(type));
-  if (!row->never_negative) return max(grown(*row, -value), lowest);
+  const Expr lowest = constant_like(value, -largest(type));
+  if (!row->never_negative) return max(lowest, grown(*row, -value));
   const Expr down = mul_up(-value, constant_like(value, 1 - share(*row, type)));
-  return select(value < constant_like(value, smallest_normal(type)), none, max(down, lowest));
+  return select(value < constant_like(value, smallest_normal(type)), zero(value), max(lowest, down));
 }
 
 }  // namespace imp::elementary

@@ -12,11 +12,6 @@ using Value = IntervalRules::Value;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-Expr outward(Graph& graph, Type type, double value) {
-  const Expr wide{&graph, graph.constant(f64, value)};
-  return type == f32 ? narrow_up(wide) : wide;
-}
-
 // So far from overflow that a rounding more or less does not matter.
 double safe(Type type) { return type == f32 ? 1e30 : 1e300; }
 
@@ -25,7 +20,7 @@ Interval constant_interval(Graph& graph, Type type, const Enclosure& value) {
     const Expr none{&graph, graph.constant(type, 0)};
     return {none, none, truth_of(graph, true), truth_of(graph, false), {}};
   }
-  Interval result = interval(outward(graph, type, -value.lo), outward(graph, type, value.hi),
+  Interval result = interval(rounded_up(graph, type, -value.lo), rounded_up(graph, type, value.hi),
                              {value.lo >= 0, value.lo > -1e30 && value.hi < 1e30});
   result.continuous = truth_of(graph, value.continuous);
   return result;
@@ -81,7 +76,7 @@ std::vector<std::optional<Range>> ranges(const Program& program, std::span<const
   Graph scratch;
   std::vector<Interval> boxes;
   for (const Range& range : inputs)
-    boxes.push_back(interval(outward(scratch, type, -range.lo), outward(scratch, type, range.hi),
+    boxes.push_back(interval(rounded_up(scratch, type, -range.lo), rounded_up(scratch, type, range.hi),
                              {range.lo >= 0, range.bounded_by(safe(type))}));
   const auto values = replay_intervals(program, boxes, {}, [](Id) {});
 

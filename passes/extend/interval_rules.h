@@ -36,6 +36,12 @@ inline Truth is_positive(const Interval& a) { return a.nlo < 0; }
 inline Truth is_negative(const Interval& a) { return a.hi < 0; }
 inline Truth may_be_zero(const Interval& a) { return !is_positive(a) && !is_negative(a) && !a.empty; }
 
+// The least number of `type` that is not below `value`.
+inline Expr rounded_up(Graph& graph, Type type, double value) {
+  const Expr wide{&graph, graph.constant(f64, value)};
+  return type == f32 ? narrow_up(wide) : wide;
+}
+
 // The interval [lo, hi], which is not empty; and {value}.
 Interval interval(Expr nlo, Expr hi, Facts facts = {});
 Interval point(Expr value, Facts facts = {});
@@ -69,6 +75,25 @@ class IntervalRules {
   Interval sign(const Interval& a) const;
   Interval mod(const Interval& a, const Interval& b) const;
   Interval powi(const Interval& a, const Interval& n) const;
+
+  // elementary_rules.cpp
+  Interval pow(const Interval& a, const Interval& b) const;
+  Interval cbrt(const Interval& a) const;
+  Interval exp(const Interval& a) const;
+  Interval log(const Interval& a) const;
+  Interval sin(const Interval& a) const;
+  Interval cos(const Interval& a) const;
+  Interval tan(const Interval& a) const;
+  Interval asin(const Interval& a) const;
+  Interval acos(const Interval& a) const;
+  Interval atan(const Interval& a) const;
+  Interval atan2(const Interval& y, const Interval& x) const;
+  Interval sinh(const Interval& a) const;
+  Interval cosh(const Interval& a) const;
+  Interval tanh(const Interval& a) const;
+  Interval asinh(const Interval& a) const;
+  Interval acosh(const Interval& a) const;
+  Interval atanh(const Interval& a) const;
 
   Possible lt(const Interval& a, const Interval& b) const;
   Possible le(const Interval& a, const Interval& b) const;

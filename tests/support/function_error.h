@@ -52,7 +52,7 @@ inline long double exact(Op op, double x, double y) {
     mpfr_pow(r, a, b, MPFR_RNDN);
   else
     mpfr_atan2(r, a, b, MPFR_RNDN);
-  const long double result = op == Op::pow && x < 0 ? std::nanl("") : mpfr_get_ld(r, MPFR_RNDN);
+  const long double result = op == Op::pow && !(x >= 0 && y == y) ? std::nanl("") : mpfr_get_ld(r, MPFR_RNDN);
   mpfr_clears(a, b, r, nullptr);
   return result;
 }

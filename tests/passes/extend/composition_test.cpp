@@ -19,13 +19,14 @@ namespace {
 
 class Composer {
  public:
-  Composer(Expr x, Expr y, std::uint64_t seed) : x_(x), y_(y), random_(seed) {}
+  Composer(Expr x, Expr y, std::uint64_t seed, bool elementary = false)
+      : x_(x), y_(y), random_(seed), elementary_(elementary) {}
 
   Expr formula(int depth) {
     if (depth == 0) return leaf();
     const auto part = [&] { return formula(depth - 1 - static_cast<int>(random_.below(2)) % depth); };
     const Expr a = part(), b = part();
-    switch (random_.below(16)) {
+    switch (random_.below(elementary_ ? 24 : 16)) {
       case 0:
       case 1:  return a + b;
       case 2:  return a - b;
@@ -41,7 +42,15 @@ class Composer {
       case 12: return make(Op::powi, a, constant_like(a, static_cast<double>(random_.below(6)) - 2));
       case 13: return make(Op::sign, a);
       case 14: return select(a < b, a, b * 2.0);
-      default: return floor(a);
+      case 15: return floor(a);
+      case 16: return make(Op::exp, a);
+      case 17: return make(Op::log, a);
+      case 18: return make(Op::sin, a);
+      case 19: return make(Op::tan, a);
+      case 20: return make(Op::acos, a);
+      case 21: return make(Op::atanh, a);
+      case 22: return make(Op::pow, a, b);
+      default: return ceil(a);
     }
   }
 
@@ -58,6 +67,7 @@ class Composer {
 
   Expr x_, y_;
   Random random_;
+  bool elementary_;
 };
 
 struct Checked {
@@ -103,16 +113,22 @@ void expect_enclosed(const Checked& checked, Box1 x, Box1 y, double px, double p
   }
 }
 
-TEST(Composition, random_formulas_are_enclosed) {
-  for (std::uint64_t seed = 0; seed < 6000; ++seed) {
-    const Checked checked = compose([&](Expr x, Expr y) { return Composer(x, y, seed).formula(4); });
+void expect_random_formulas_enclosed(std::uint64_t count, bool elementary) {
+  for (std::uint64_t seed = 0; seed < count; ++seed) {
+    const Checked checked =
+        compose([&](Expr x, Expr y) { return Composer(x, y, seed, elementary).formula(4); });
     Boxes boxes(seed);
     for (int i = 0; i < 12; ++i) {
       const Box1 x = boxes.box(), y = boxes.box();
       for (int k = 0; k < 3; ++k) expect_enclosed(checked, x, y, boxes.inside(x), boxes.inside(y));
-      if (HasFatalFailure()) FAIL() << "seed " << seed;
+      if (testing::Test::HasFatalFailure()) FAIL() << "seed " << seed;
     }
   }
+}
+
+TEST(Composition, random_formulas_are_enclosed) { expect_random_formulas_enclosed(6000, false); }
+TEST(Composition, random_formulas_with_elementary_functions_are_enclosed) {
+  expect_random_formulas_enclosed(4000, true);
 }
 
 Expr number_like(Expr x, double value) { return constant_like(x, value); }
