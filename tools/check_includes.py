@@ -23,7 +23,7 @@ FOREIGN = {  # headers that stay in one place
     "llvm": ["backends/llvm"],
     "llvm-c": ["backends/llvm"],
     "OpenImageIO": ["runtime/image"],
-    "CLI": ["tools"],
+    "CLI": ["tools", "tests/prove"],
     "nlohmann": ["tools", "tests"],
 }
 
