@@ -8,27 +8,12 @@
 #include "passes/differentiate.h"
 #include "passes/pass.h"
 #include "passes/precision.h"
+#include "tests/support/catalogue.h"
 #include "tests/support/error_scale.h"
 #include "tests/support/evaluate.h"
-#include "tests/support/surface_data.h"
 
 namespace imp {
 namespace {
-
-const std::vector<test::SurfaceEntry>& catalogue() {
-  static const auto entries = test::load_surfaces(IMP_TEST_DATA);
-  return entries;
-}
-
-// x, y, z, the parameters at their defaults, the time.
-std::vector<double> inputs_at(const Model& model, const test::ValueRecord& record) {
-  std::vector<double> values(record.p.begin(), record.p.end());
-  const auto settings =
-      test::evaluate(in_precision(model.settings, f64), std::vector<double>(model.settings.inputs.size()));
-  for (const Parameter& parameter : model.parameters) values.push_back(settings[parameter.value.output]);
-  if (model.time) values.push_back(record.time.value_or(settings[model.time->value.output]));
-  return values;
-}
 
 std::array<double, 10> expected_of(const test::ValueRecord& v) {
   std::array<double, 10> all{v.f, v.gradient[0], v.gradient[1], v.gradient[2]};
@@ -46,7 +31,7 @@ double largest(std::span<const double> values) {
 class Catalogue : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(Catalogue, value_gradient_and_hessian) {
-  const test::SurfaceEntry& entry = catalogue()[GetParam()];
+  const test::SurfaceEntry& entry = test::catalogue()[GetParam()];
   Diagnostics diagnostics;
   const auto model = parse_model(entry.source, entry.id + ".imp", diagnostics);
   ASSERT_TRUE(model) << to_text(diagnostics);
@@ -63,7 +48,7 @@ TEST_P(Catalogue, value_gradient_and_hessian) {
   const auto kernel = interpret(program), before = interpret(numbers);
 
   for (const test::ValueRecord& record : entry.values) {
-    const auto inputs = inputs_at(*model, record);
+    const auto inputs = test::inputs_at(*model, record);
     const auto found = test::evaluate(*kernel, inputs), same = test::evaluate(*before, inputs);
     const auto expected = expected_of(record);
     std::array<double, 10> tolerance{};
@@ -86,8 +71,8 @@ TEST_P(Catalogue, value_gradient_and_hessian) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Surfaces, Catalogue, testing::Range(std::size_t{0}, catalogue().size()),
-                         [](const auto& test) { return catalogue()[test.param].id; });
+INSTANTIATE_TEST_SUITE_P(Surfaces, Catalogue, testing::Range(std::size_t{0}, test::catalogue().size()),
+                         [](const auto& test) { return test::catalogue()[test.param].id; });
 
 }  // namespace
 }  // namespace imp

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "frontend/model.h"
+#include "passes/precision.h"
+#include "tests/support/evaluate.h"
 #include "tests/support/surface_data.h"
 
 namespace imp::test {
@@ -38,5 +40,15 @@ inline Model model_of(const std::string& source, const std::string& name = "test
   return *std::move(model);
 }
 inline Model model_of(const SurfaceEntry& entry) { return model_of(entry.source, entry.id); }
+
+// The inputs of a surface at a point: x, y, z, the parameters at their defaults, the time.
+inline std::vector<double> inputs_at(const Model& model, const ValueRecord& record) {
+  std::vector<double> values(record.p.begin(), record.p.end());
+  const auto settings =
+      evaluate(in_precision(model.settings, f64), std::vector<double>(model.settings.inputs.size()));
+  for (const Parameter& parameter : model.parameters) values.push_back(settings[parameter.value.output]);
+  if (model.time) values.push_back(record.time.value_or(settings[model.time->value.output]));
+  return values;
+}
 
 }  // namespace imp::test
