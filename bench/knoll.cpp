@@ -1,0 +1,116 @@
+// The surfaces of Knoll et al. 2009, Table 1, by interval bisection at epsilon = 2^-11, 1024 x 1024.
+//
+// Beside them: the frames a second of the paper (four cores of 2.33 GHz with SSE, interval arithmetic), and
+// what a hand-written kernel of independent lanes with AVX-512, without outward rounding, took for the
+// same (one thread of 223 GFLOP/s), scaled to this machine by its peak.
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "bench/peak.h"
+#include "bench/surfaces.h"
+#include "bench/tables.h"
+#include "bench/thread_clock.h"
+
+namespace imp::bench {
+namespace {
+
+struct Row {
+  const char* surface;
+  double paper_fps;       // 0: not in the paper
+  double by_hand_ms = 0;  // 0: not measured
+};
+
+constexpr double by_hand_gflops = 223;
+
+constexpr Row rows[] = {
+    {"sphere", 15, 34},
+    {"steiner", 7.5, 66},
+    {"mitchell", 5.2, 143},
+    {"teardrop", 5.5},
+    {"bretzel4", 13},
+    {"klein_bottle", 11},
+    {"tangle", 3.2, 51},
+    {"decocube", 5.5, 96},
+    {"barth_sextic", 7.4, 123},
+    {"barth_decic", 0.92, 517},
+    {"superquadric_knoll", 18, 49},
+    {"sin_blob", 0.71, 676},
+    {"cloth", 2.2},
+    {"water", 2.2, 183},
+    {"blinn_gauss", 0, 97},
+};
+
+constexpr int rounds = 5;
+
+class WallClock {
+ public:
+  double milliseconds() const {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+struct Measured {
+  std::vector<double> milliseconds;
+  double undecided = 0;  // share of the pixels
+};
+
+Scene prepared(const char* surface, const std::shared_ptr<Workers>& workers, bool outward) {
+  RenderOptions options;
+  options.workers = workers;
+  options.limits.epsilon = 0x1p-11;
+  options.kernel.outward = outward;
+  return scene(surface, options);
+}
+
+// By the clock on the wall, or by the time of this thread.
+template <class Clock>
+void measure(const Scene& scene, Measured& into) {
+  const Clock clock;
+  const Picture picture = scene.renderer->frame(scene.uniforms);
+  into.milliseconds.push_back(clock.milliseconds());
+  into.undecided =
+      static_cast<double>(picture.count(verdict_undecided)) / static_cast<double>(picture.verdict.size());
+}
+
+std::string ratio(double a, double b) { return b > 0 ? fmt::format("{:.2f}", a / b) : "-"; }
+
+}  // namespace
+
+void print_knoll_table() {
+  const auto one = std::make_shared<Workers>(1), all = std::make_shared<Workers>();
+  fmt::print(
+      "1024 x 1024, epsilon 2^-11, medians of {} frames; the processor time of one thread, frames a second "
+      "by the clock on the wall\n\n",
+      rounds);
+  fmt::print(
+      "| surface | nearest, ms | outward, ms | outward / nearest | peak, GFLOP/s | by hand, scaled, ms | "
+      "nearest / by "
+      "hand | undecided % | fps, {} threads | fps, paper |\n| --- |{}\n",
+      all->size(), std::string(" ---: |").append(" ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |"));
+  for (const Row& row : rows) {
+    const Scene nearest = prepared(row.surface, one, false), outward = prepared(row.surface, one, true);
+    const Scene together = prepared(row.surface, all, true);
+    Measured plain, sound, fast;
+    std::vector<double> peaks, price;
+    for (int round = 0; round < rounds; ++round) {
+      peaks.push_back(peak_gflops());
+      measure<ThreadClock>(nearest, plain);
+      measure<ThreadClock>(outward, sound);
+      measure<WallClock>(together, fast);
+      price.push_back(sound.milliseconds.back() / plain.milliseconds.back());
+    }
+    const double peak = median(peaks), by_hand = peak > 0 ? row.by_hand_ms * by_hand_gflops / peak : 0;
+    fmt::print("| {} | {:.1f} | {:.1f} | {:.2f} | {:.0f} | {} | {} | {:.2f} | {:.1f} | {} |\n", row.surface,
+               median(plain.milliseconds), median(sound.milliseconds), median(price), peak,
+               by_hand > 0 ? fmt::format("{:.0f}", by_hand) : "-", ratio(median(plain.milliseconds), by_hand),
+               100 * sound.undecided, 1000 / median(fast.milliseconds),
+               row.paper_fps > 0 ? fmt::format("{}", row.paper_fps) : "-");
+    std::fflush(stdout);
+  }
+}
+
+}  // namespace imp::bench

@@ -1,0 +1,20 @@
+// Tables: figures that only mean something side by side, measured in turns within one run. In Markdown,
+// on standard output:  tools/dev bench --table NAME
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+namespace imp::bench {
+
+void print_knoll_table();        // frames of Knoll et al. 2009, Table 1
+void print_first_pixel_table();  // from the start of the process to the first pixel
+void print_elementary_table();   // elementary functions, a lane
+
+// Of an odd number of values the one in the middle.
+inline double median(std::vector<double> values) {
+  std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));
+  return values[values.size() / 2];
+}
+
+}  // namespace imp::bench

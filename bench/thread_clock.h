@@ -1,0 +1,21 @@
+// The processor time of this thread: on a machine shared with others, what a quiet one would show.
+#pragma once
+
+#include <ctime>
+
+namespace imp::bench {
+
+class ThreadClock {
+ public:
+  double milliseconds() const { return now() - start_; }
+
+ private:
+  static double now() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) * 1e3 + static_cast<double>(time.tv_nsec) * 1e-6;
+  }
+  double start_ = now();
+};
+
+}  // namespace imp::bench
