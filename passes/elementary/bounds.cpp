@@ -58,13 +58,14 @@ double largest_angle(Type type) { return type == f32 ? 0x1p14 : 0x1p25; }
 
 // A denormal is off by an ulp at most, which the rounding of its product pays; but for those of
 // functions that fade out to 0, exp and pow, which end at the smallest normal number. What overflows
-// passes the value on the way down only.
+// ends at the largest one on the side of 0. NaN stays NaN, as max answers its second operand then.
 Expr above(Op op, Expr value) {
   const Row* row = row_of(op);
   IMP_ASSERT(row, "an elementary function");
-  if (!row->never_negative) return grown(*row, value);
-  const Expr up = mul_up(value, constant_like(value, 1 + share(*row, value.type())));
-  return max(up, constant_like(up, smallest_normal(up.type())));
+  const Type type = value.type();
+  if (!row->never_negative) return max(constant_like(value, -largest(type)), grown(*row, value));
+  const Expr up = mul_up(value, constant_like(value, 1 + share(*row, type)));
+  return max(constant_like(up, smallest_normal(type)), up);
 }
 
 Expr minus_below(Op op, Expr value) {
@@ -72,9 +73,9 @@ Expr minus_below(Op op, Expr value) {
   IMP_ASSERT(row, "an elementary function");
   const Type type = value.type();
   const Expr none = zero(value), lowest = constant_like(value, -largest(type));
-  if (!row->never_negative) return max(grown(*row, -value), lowest);
+  if (!row->never_negative) return max(lowest, grown(*row, -value));
   const Expr down = mul_up(-value, constant_like(value, 1 - share(*row, type)));
-  return select(value < constant_like(value, smallest_normal(type)), none, max(down, lowest));
+  return select(value < constant_like(value, smallest_normal(type)), none, max(lowest, down));
 }
 
 }  // namespace imp::elementary
