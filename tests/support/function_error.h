@@ -143,7 +143,8 @@ class FunctionKernel {
     const double error = ulps_off(value, right);
     if (error > result.ulps) result.ulps = error, result.x = x, result.y = y;
     if (out.size() == 1) return;
-    const long double slack = type_ == f32 ? std::abs(right) * 0x1p-50L : std::abs(right) * 0x1p-62L;
+    const long double uncertain = std::ldexp(std::abs(right), type_ == f32 ? -50 : -62);
+    const long double slack = std::isinf(right) ? 0 : uncertain;
     if (!(out[1][i] >= right - slack) || !(out[2][i] >= -right - slack)) wrong(result.outside);
   }
 
