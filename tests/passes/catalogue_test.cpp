@@ -6,6 +6,7 @@
 #include "ir/text.h"
 #include "ir/verify.h"
 #include "passes/differentiate.h"
+#include "passes/elementary/lower.h"
 #include "passes/pass.h"
 #include "passes/precision.h"
 #include "tests/support/catalogue.h"
@@ -45,7 +46,7 @@ TEST_P(Catalogue, value_gradient_and_hessian) {
   ASSERT_EQ(verify(numbers), "");
   const Program program = run_passes(numbers, kernel_passes());
   ASSERT_EQ(verify(program), "");
-  const auto kernel = interpret(program), before = interpret(numbers);
+  const auto kernel = interpret(program), before = interpret(lower_elementary(numbers));
 
   for (const test::ValueRecord& record : entry.values) {
     const auto inputs = test::inputs_at(*model, record);
