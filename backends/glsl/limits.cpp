@@ -16,7 +16,7 @@ constexpr std::uint64_t most_operations = 3000;
 constexpr std::uint64_t most_steps = 65535;
 constexpr std::uint32_t longest_table = 1024;
 
-constexpr std::uint64_t many = std::uint64_t{1} << 40;
+constexpr std::uint64_t many = std::uint64_t{1} << 31;  // of it 2^32 times are still a number
 
 // Functions become part of where they are called, so both are counted once a call.
 struct Count {
@@ -41,8 +41,11 @@ std::optional<Refusal> count(const Program& program, Count& total) {
   std::set<std::pair<std::uint32_t, std::vector<Id>>> calls;
   for (std::size_t rank = 0; rank < nodes.size(); ++rank) {
     const Region region{static_cast<std::uint32_t>(rank)};
-    const std::uint64_t times = region.inside_a_phase() ? program.phases[(rank - 4) / 2].steps : 1;
-    if (region.inside_a_phase()) total.steps += times;
+    const std::size_t phase =
+        region.inside_a_phase() ? (rank - Region::in_phase(0).rank) / 2 : program.phases.size();
+    const bool repeated = phase < program.phases.size();
+    const std::uint64_t times = repeated ? program.phases[phase].steps : 1;
+    if (repeated) total.steps = std::min(many, total.steps + times);
     for (const Id id : nodes[rank]) {
       if (auto why = refusal_of_node(program, id)) return why;
       ++total.operations;
