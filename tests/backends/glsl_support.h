@@ -7,7 +7,7 @@
 #include "backends/glsl/kernel.h"
 
 // In a test: ends it, skipped, where there is no OpenGL.
-#define IMP_NEEDS_GL()                                                             \
+#define IMP_NEEDS_GL() \
   if (const auto gl = ::imp::GlContext::get(); !gl) GTEST_SKIP() << gl.error()
 
 namespace imp::test {
