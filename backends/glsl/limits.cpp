@@ -11,7 +11,7 @@ namespace imp {
 namespace {
 
 // A driver's compiler takes more than linear time: 30 s are about here (docs/decisions/glsl.md).
-constexpr std::uint64_t most_operations = 3000;
+constexpr std::uint64_t most_operations = 4000;
 // llvmpipe leaves all loops of a shader, without a word, after 65535 steps in all.
 constexpr std::uint64_t most_steps = 65535;
 constexpr std::uint32_t longest_table = 1024;

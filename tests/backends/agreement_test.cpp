@@ -7,9 +7,9 @@
 
 #include "ir/meaning.h"
 #include "ir/rounding.h"
-#include "tests/backends/glsl_support.h"
 #include "tests/backends/llvm_support.h"
 #include "tests/support/interesting_values.h"
+#include "tests/support/shader.h"
 
 namespace imp {
 namespace {

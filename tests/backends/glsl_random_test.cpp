@@ -3,10 +3,10 @@
 #include "ir/text.h"
 #include "passes/rewrite.h"
 #include "runtime/kernel.h"
-#include "tests/backends/glsl_support.h"
 #include "tests/support/evaluate.h"
 #include "tests/support/random_program.h"
 #include "tests/support/rays.h"
+#include "tests/support/shader.h"
 
 namespace imp {
 namespace {

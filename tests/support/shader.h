@@ -1,4 +1,4 @@
-// What the tests of the GLSL backend share: a kernel, or the reason why there is no OpenGL here.
+// For tests of shaders: a kernel, or the reason why there is no OpenGL here.
 #pragma once
 
 #include <gtest/gtest.h>
