@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "backends/glsl/kernel.h"
 #include "backends/llvm/compile.h"
 #include "ir/assert.h"
 #include "passes/round_to_nearest.h"
@@ -31,6 +32,13 @@ std::expected<std::unique_ptr<Kernel>, Refusal> compile_for_cpu(const Program& p
   return kernel;
 }
 
+std::expected<std::unique_ptr<Kernel>, Refusal> compile_for_gl(Program program, Timings* timings) {
+  const auto start = std::chrono::steady_clock::now();
+  auto kernel = compile_glsl(std::move(program));
+  if (timings) timings->entries.push_back({"compile shader", milliseconds_since(start)});
+  return kernel;
+}
+
 }  // namespace
 
 Program lower(Program program, const KernelOptions& options, PassTrace* trace) {
@@ -45,6 +53,7 @@ std::expected<std::unique_ptr<Kernel>, Refusal> make_kernel(Program program, con
   if (timings) timings->entries.push_back({"passes", milliseconds_since(start)});
   switch (options.backend) {
     case Backend::llvm:        return compile_for_cpu(program, options.target, timings);
+    case Backend::glsl:        return compile_for_gl(std::move(program), timings);
     case Backend::interpreter: return interpret(std::move(program));
   }
   return std::unexpected(Refusal{"unknown backend"});

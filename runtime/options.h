@@ -7,7 +7,7 @@
 
 namespace imp {
 
-enum class Backend : std::uint8_t { llvm, interpreter };
+enum class Backend : std::uint8_t { llvm, interpreter, glsl };
 
 struct KernelOptions {
   Backend backend = Backend::llvm;

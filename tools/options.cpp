@@ -13,9 +13,10 @@ namespace imp::tools {
 namespace {
 
 constexpr Choice backends[] = {
+    // in the order of Backend
     {"llvm", "machine code of this computer"},
     {"interpreter", "the reference: slow and obvious"},
-    {"glsl", "shaders", false},
+    {"glsl", "a shader, run by OSMesa without a window"},
 };
 constexpr Choice precisions[] = {{"float", "32 bits"}, {"double", "64 bits"}};
 constexpr Choice roundings[] = {
@@ -131,7 +132,7 @@ void add_options(CLI::App& verb, Options& options) {
   add_value(verb, "--surface", "NAME", "the surface, where the file has several",
             [&](const std::string& name) { options.surface = name; });
   add_choice(verb, "--backend", backends, "what runs (llvm)",
-             [&](std::size_t i) { options.kernel.backend = i == 0 ? Backend::llvm : Backend::interpreter; });
+             [&](std::size_t i) { options.kernel.backend = static_cast<Backend>(i); });
   add_choice(verb, "--precision", precisions, "of the numbers (float)",
              [&](std::size_t i) { options.kernel.precision = i == 0 ? f32 : f64; });
   add_choice(verb, "--target", target_words, "the processor (host)",
@@ -164,7 +165,7 @@ void add_options(CLI::App& verb, Options& options) {
 
 std::span<const Choice> inclusions() { return inclusion_choices; }
 
-std::string_view backend_name(Backend backend) { return backend == Backend::llvm ? "llvm" : "interpreter"; }
+std::string_view backend_name(Backend backend) { return backends[static_cast<std::size_t>(backend)].name; }
 
 std::string_view precision_name(Type precision) { return precision == f32 ? "float" : "double"; }
 

@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include "backends/interpreter/float_mode.h"
+#include "backends/float_mode.h"
 #include "backends/interpreter/frame.h"
 
 namespace imp {

@@ -26,9 +26,9 @@ std::vector<Column> columns(const Model& model, const test::SurfaceEntry& entry,
   return result;
 }
 
-class Agreement : public testing::TestWithParam<const test::SurfaceEntry*> {};
+class Catalogue : public testing::TestWithParam<const test::SurfaceEntry*> {};
 
-TEST_P(Agreement, of_all_targets_with_the_interpreter) {
+TEST_P(Catalogue, of_all_targets_with_the_interpreter) {
   const test::SurfaceEntry& entry = *GetParam();
   const Model model = test::model_of(entry);
   for (const Evaluation evaluation : {Evaluation::gradient, Evaluation::interval})
@@ -47,7 +47,7 @@ TEST_P(Agreement, of_all_targets_with_the_interpreter) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Surfaces, Agreement, testing::ValuesIn(test::algebraic_entries()),
+INSTANTIATE_TEST_SUITE_P(Surfaces, Catalogue, testing::ValuesIn(test::algebraic_entries()),
                          [](const auto& test) { return test.param->id; });
 
 // Code for a processor that this one need not be.

@@ -1,10 +1,8 @@
-// The reference computes the last column of ir/ops.def: checked here against numbers written out.
+// The reference at numbers written out; that it computes the last column of ir/ops.def: agreement_test.cpp.
 #include <gtest/gtest.h>
 
-#include "ir/meaning.h"
 #include "ir/verify.h"
 #include "tests/support/evaluate.h"
-#include "tests/support/interesting_values.h"
 #include "tests/support/make.h"
 #include "tests/support/rays.h"
 
@@ -103,33 +101,6 @@ TEST(InterpreterOps, known_values_in_f32_and_f64) {
           << info(k.op).name << ' ' << k.args[0] << " in " << to_text(type) << ": " << value;
     }
 }
-
-template <class T>
-void every_op(Type type) {
-  for (int i = 0; i < op_count; ++i) {
-    const Op op = static_cast<Op>(i);
-    const OpKind kind = info(op).kind;
-    const bool real = kind == OpKind::real || kind == OpKind::elementary;
-    if ((!real && kind != OpKind::compare) || op == Op::powi) continue;
-    const Program p = of(op, type);
-    const auto kernel = interpret(p);
-    const auto arity = static_cast<std::size_t>(info(op).arity);
-    const auto values = test::interesting_values<T>();
-    for (const T a : values)
-      for (const T b : arity < 2 ? std::vector<T>{0} : values)
-        for (const T c : arity < 3 ? std::vector<T>{0} : std::vector<T>{0, 1, -b, T(1e-30)}) {
-          const std::array<double, 3> args{a, b, c};
-          const double got = test::evaluate(*kernel, std::span(args).first(arity))[0];
-          const double expected =
-              real ? static_cast<double>(meaning::real<T>(op, a, b, c)) : meaning::truth<T>(op, a, b);
-          EXPECT_TRUE(same_bits(got, expected))
-              << info(op).name << ' ' << a << ' ' << b << ' ' << c << ": " << got << ", not " << expected;
-        }
-  }
-}
-
-TEST(InterpreterOps, every_op_at_interesting_values_in_f32) { every_op<float>(f32); }
-TEST(InterpreterOps, every_op_at_interesting_values_in_f64) { every_op<double>(f64); }
 
 TEST(InterpreterOps, powers) {
   for (const Type type : {f32, f64})

@@ -8,6 +8,7 @@
 #include "ir/text.h"
 #include "runtime/kernel.h"
 #include "runtime/stages.h"
+#include "tests/support/shader.h"
 
 namespace imp {
 namespace {
@@ -98,6 +99,7 @@ const void* frame_value(const Input& input) {
 class Stages : public testing::TestWithParam<Backend> {};
 
 TEST_P(Stages, children_read_what_their_parent_found) {
+  if (GetParam() == Backend::glsl) IMP_NEEDS_GL();
   const auto stages = runnable(pipeline_of(two_stages), GetParam());
   for (const PictureSize size : {PictureSize{32, 32}, {1, 1}, {33, 17}, {70, 65}, {128, 3}})
     for (const unsigned threads : {1u, 2u, 5u}) {
@@ -165,9 +167,12 @@ end
   EXPECT_EQ(pixels, 60 * 14);
 }
 
-INSTANTIATE_TEST_SUITE_P(Backends, Stages, testing::Values(Backend::interpreter, Backend::llvm),
+INSTANTIATE_TEST_SUITE_P(Backends, Stages,
+                         testing::Values(Backend::interpreter, Backend::llvm, Backend::glsl),
                          [](const auto& test) {
-                           return test.param == Backend::llvm ? "llvm" : "interpreter";
+                           return test.param == Backend::llvm   ? "llvm"
+                                  : test.param == Backend::glsl ? "glsl"
+                                                                : "interpreter";
                          });
 
 TEST(Stages, stop_when_asked) {

@@ -33,10 +33,15 @@ std::vector<T> interesting_values() {
                         T(127),
                         T(128),
                         T(149),
+                        T(150),
+                        T(161),
                         T(1022),
                         T(1023),
                         T(1024),
                         T(1074),
+                        T(1075),
+                        T(1101),
+                        T(2200),
                         T(5000),
                         T(1e4),
                         T(8388607.5),
@@ -47,9 +52,11 @@ std::vector<T> interesting_values() {
                         std::sqrt(Limits::max()),
                         Limits::min(),
                         Limits::min() / 2,
+                        std::nextafter(Limits::min(), T(0)),
                         Limits::denorm_min(),
                         3 * Limits::denorm_min(),
                         Limits::max(),
+                        Limits::max() / 2,
                         Limits::infinity()};
   for (std::size_t i = 0, n = values.size(); i < n; ++i) values.push_back(-values[i]);
   values.push_back(Limits::quiet_NaN());

@@ -47,8 +47,6 @@ TEST(Command, refuses_options_by_name) {
   expect_misuse({"render"}, "F.imp");
   expect_misuse({"render", sphere, "--sise", "3x3"}, "unexpected '--sise'; did you mean '--size'?");
   expect_misuse({"render", sphere, "other.imp"}, "unexpected 'other.imp'");
-  expect_misuse({"render", sphere, "--backend", "glsl"},
-                "--backend: 'glsl' is not there yet; there are llvm, interpreter");
   expect_misuse({"render", sphere, "--backend", "lvm"}, "--backend: unknown 'lvm'; did you mean 'llvm'?");
   expect_misuse({"render", sphere, "--search=auto"}, "'auto' is not there yet");
   expect_misuse({"render", sphere, "--inclusion=af1"}, "'af1' is not there yet");
@@ -87,7 +85,7 @@ TEST(Command, the_last_value_counts_and_both_forms_work) {
     return test::imp(words, point).out;
   };
   const std::string expected = "x,y,z,f\n0,0,0,-1\n";
-  EXPECT_EQ(value({"--backend=glsl", "--backend", "interpreter"}), expected);
+  EXPECT_EQ(value({"--backend=llvm", "--backend", "interpreter"}), expected);
   EXPECT_EQ(value({"--backend", "nonsense", "--backend=llvm"}), expected);
   EXPECT_EQ(value({"-D", "r=0.5", "-Dr=1"}), expected);
   EXPECT_EQ(value({"--precision=double", "--rounding", "nearest", "--target=host", "--epsilon=2^-11"}),

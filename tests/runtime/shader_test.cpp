@@ -1,0 +1,63 @@
+// Pictures and casts by shaders: what they prove is what machine code proves, or less.
+#include <gtest/gtest.h>
+
+#include "runtime/search/search.h"
+#include "tests/support/cast.h"
+#include "tests/support/picture.h"
+#include "tests/support/shader.h"
+
+namespace imp {
+namespace {
+
+class Shaders : public testing::TestWithParam<const char*> {
+ protected:
+  const test::SurfaceEntry& entry = test::entry_named(GetParam());
+  const Model model = test::model_of(entry);
+};
+
+bool contradict(double a, double b) {
+  return (a == verdict_hit && b == verdict_miss) || (a == verdict_miss && b == verdict_hit);
+}
+
+TEST_P(Shaders, show_the_same_picture) {
+  IMP_NEEDS_GL();
+  for (const Type precision : {f32, f64}) {
+    RenderOptions options = test::sized(48, 48);
+    options.kernel.precision = precision;
+    options.workers = std::make_shared<Workers>(2);
+    const Picture expected = test::render(model, options);
+    options.kernel.backend = Backend::glsl;
+    const Picture shown = test::render(model, options);
+    std::size_t otherwise = 0;
+    for (std::size_t i = 0; i < shown.verdict.size(); ++i) {
+      EXPECT_FALSE(contradict(shown.verdict[i], expected.verdict[i])) << "pixel " << i;
+      otherwise += shown.verdict[i] != expected.verdict[i] ? 1 : 0;
+    }
+    // An enclosure is wider by a step of the numbers at each op: some that are just proven are not.
+    EXPECT_LE(otherwise, precision == f64 ? 0U : shown.verdict.size() / 100)
+        << test::verdicts(expected) << test::verdicts(shown);
+    EXPECT_GT(shown.count(verdict_hit), 0U);
+  }
+}
+
+TEST_P(Shaders, never_contradict_exact_roots) {
+  IMP_NEEDS_GL();
+  const auto rays = test::rays_of(entry);
+  for (const Type precision : {f32, f64}) {
+    const auto expected = test::Caster(model, {.precision = precision})(rays);
+    const auto found = test::Caster(model, {.backend = Backend::glsl, .precision = precision})(rays);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      EXPECT_FALSE(contradict(found[i].verdict, expected[i].verdict)) << "ray " << i;
+      if (found[i].verdict == verdict_hit && expected[i].verdict == verdict_hit) {
+        const double length = rays[i].tmax - rays[i].tmin;
+        EXPECT_NEAR(found[i].t, expected[i].t, 1e-4 * length) << "ray " << i;
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Surfaces, Shaders,
+                         testing::Values("sphere", "steiner", "torus", "tangle", "klein_bottle"));
+
+}  // namespace
+}  // namespace imp
