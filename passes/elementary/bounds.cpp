@@ -54,7 +54,7 @@ std::optional<double> ulps(Op op, Type type) {
   return type == f32 ? row->f32_ulps : row->f64_ulps;
 }
 
-double largest_angle(Type type) { return type == f32 ? 0x1p14 : 0x1p25; }
+double largest_angle(Type type) { return type == f32 ? 12'800 : 0x1p22; }
 
 // A denormal is off by an ulp at most, which the rounding of its product pays; but for those of functions
 // that fade out to 0, exp and pow, whose bounds there are 0 and the smallest normal number. What overflows

@@ -44,7 +44,7 @@ inline long double exact(Op op, double x, double y) {
   }();
   mpfr_t a, b, r;
   mpfr_inits2(precision, a, b, r, nullptr);
-  mpfr_set_d(a, x, MPFR_RNDN);
+  mpfr_set_d(a, op == Op::pow && x == 0 ? 0 : x, MPFR_RNDN);  // there -0 is 0
   mpfr_set_d(b, y, MPFR_RNDN);
   if (unary)
     unary(r, a, MPFR_RNDN);

@@ -1,0 +1,100 @@
+// How far the elementary functions are off, sampled: `imp_prove elementary` tries all floats.
+#include <gtest/gtest.h>
+
+#include "passes/elementary/lower.h"
+#include "tests/support/arguments.h"
+#include "tests/support/function_error.h"
+
+namespace imp {
+namespace {
+
+using test::FunctionError;
+using test::FunctionKernel;
+
+constexpr Op ops[] = {
+#define OP(name, arity, kind, llvm, glsl, meaning) Op::name,
+#include "ir/ops.def"
+};
+
+std::vector<Op> elementary_ops() {
+  std::vector<Op> result;
+  for (const Op op : ops)
+    if (info(op).kind == OpKind::elementary) result.push_back(op);
+  return result;
+}
+
+struct Arguments {
+  std::vector<double> x, y;
+};
+
+// Floats all over their range, or random doubles.
+Arguments samples(Op op, Type type) {
+  constexpr std::uint64_t stride = 200'003;
+  constexpr int count = 20'000;
+  Arguments a;
+  if (type == f32 && info(op).arity == 1) {
+    for (std::uint64_t bits = 0; bits < std::uint64_t{1} << 32; bits += stride)
+      a.x.push_back(test::float_of_bits(static_cast<std::uint32_t>(bits)));
+    return a;
+  }
+  std::mt19937_64 random(1);
+  for (int i = 0; i < count; ++i) {
+    a.x.push_back(test::random_argument(random, type));
+    a.y.push_back(test::random_argument(random, type));
+  }
+  return a;
+}
+
+// Where functions turn; for two arguments every seventh against all.
+Arguments special(Op op, Type type) {
+  const std::vector<double> numbers = test::special_arguments(type);
+  if (info(op).arity == 1) return {numbers, {}};
+  Arguments a;
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    for (std::size_t k = i % 7; k < numbers.size(); k += 7) {
+      a.x.push_back(numbers[i]);
+      a.y.push_back(numbers[k]);
+    }
+  return a;
+}
+
+class Elementary : public testing::TestWithParam<std::tuple<Op, Type, bool>> {
+ protected:
+  Op op() const { return std::get<0>(GetParam()); }
+  Type type() const { return std::get<1>(GetParam()); }
+  bool upward() const { return std::get<2>(GetParam()); }
+
+  void SetUp() override {
+    Program p;
+    const Expr x = test::input(p, "x", type());
+    test::output(p, "f", info(op()).arity == 1 ? make(op(), x) : make(op(), x, x));
+    const Program after = lower_elementary(p);
+    if (after.graph[after.outputs[0].id].op == op()) GTEST_SKIP() << "not yet of basic ops";
+  }
+
+  void expect_within_bounds(const Arguments& arguments) const {
+    const FunctionError error = FunctionKernel(op(), type(), upward()).measure(arguments.x, arguments.y);
+    EXPECT_GT(error.tried, 1000u);
+    EXPECT_LE(error.ulps, *elementary::ulps(op(), type()))
+        << std::hexfloat << "at " << error.x << ", " << error.y;
+    EXPECT_EQ(error.wrong_kind, 0u) << std::hexfloat << "at " << error.wrong_x << ", " << error.wrong_y;
+    EXPECT_EQ(error.outside, 0u) << std::hexfloat << "at " << error.wrong_x << ", " << error.wrong_y;
+  }
+};
+
+std::string name_of(const testing::TestParamInfo<std::tuple<Op, Type, bool>>& test) {
+  const auto [op, type, upward] = test.param;
+  return std::string(info(op).name) + (type == f32 ? "_f32" : "_f64") + (upward ? "_upward" : "_nearest");
+}
+
+INSTANTIATE_TEST_SUITE_P(Functions, Elementary,
+                         testing::Combine(testing::ValuesIn(elementary_ops()), testing::Values(f32, f64),
+                                          testing::Bool()),
+                         name_of);
+
+TEST_P(Elementary, is_within_its_bound) { expect_within_bounds(samples(op(), type())); }
+
+TEST_P(Elementary, is_right_where_functions_turn) { expect_within_bounds(special(op(), type())); }
+
+}  // namespace
+}  // namespace imp
