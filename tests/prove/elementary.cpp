@@ -61,7 +61,7 @@ FunctionError random_arguments(const test::FunctionKernel& kernel, Type type, st
     std::vector<double> x, y;
     for (std::size_t k = 0; k < batch; ++k) {
       x.push_back(test::random_argument(random, type));
-      y.push_back(test::random_argument(random, type));
+      y.push_back(test::random_argument_beside(x.back(), random, type));
     }
     return kernel.measure(x, y);
   });

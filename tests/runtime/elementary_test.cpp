@@ -40,7 +40,7 @@ Arguments samples(Op op, Type type) {
   std::mt19937_64 random(1);
   for (int i = 0; i < count; ++i) {
     a.x.push_back(test::random_argument(random, type));
-    a.y.push_back(test::random_argument(random, type));
+    a.y.push_back(test::random_argument_beside(a.x.back(), random, type));
   }
   return a;
 }

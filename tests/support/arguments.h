@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <random>
 #include <vector>
 
@@ -43,16 +44,37 @@ inline std::vector<double> special_arguments(Type type) {
   return all;
 }
 
-// A number of this type: one time in four near 1, one in four of moderate size, else of any bits.
-inline double random_argument(std::mt19937_64& random, Type type) {
-  const auto round = [&](double x) { return type == f32 ? static_cast<double>(static_cast<float>(x)) : x; };
+inline double rounded(long double x, Type type) {
+  return type == f32 ? static_cast<double>(static_cast<float>(x)) : static_cast<double>(x);
+}
+
+// A number that is 1 in this type's digits but for the last few, or but for all.
+inline double random_near_one(std::mt19937_64& random, Type type) {
+  const int digits = type == f32 ? 24 : 53;
   std::uniform_real_distribution<double> unit(-1, 1);
-  switch (random() % 4) {
-    case 0:  return round(1 + unit(random) * std::ldexp(1.0, -static_cast<int>(random() % 30)));
-    case 1:  return round(unit(random) * std::ldexp(1.0, static_cast<int>(random() % 20) - 8));
+  return rounded(1 + unit(random) * std::ldexp(1.0, -static_cast<int>(random() % digits)), type);
+}
+
+// A number of this type: one time in four near 1 or -1, one in eight next to a multiple of pi/2, one in
+// eight of moderate size, else of any bits.
+inline double random_argument(std::mt19937_64& random, Type type) {
+  std::uniform_real_distribution<double> unit(-1, 1);
+  switch (random() % 8) {
+    case 0: return random_near_one(random, type);
+    case 1: return -random_near_one(random, type);
+    case 2: {
+      const std::uint64_t turns = random() >> (42 + random() % 21);
+      return rounded(static_cast<long double>(turns) * std::numbers::pi_v<long double> / 2, type);
+    }
+    case 3:  return rounded(unit(random) * std::ldexp(1.0, static_cast<int>(random() % 20) - 8), type);
     default: break;
   }
   return type == f32 ? float_of_bits(static_cast<std::uint32_t>(random())) : std::bit_cast<double>(random());
+}
+
+// One to go with `x`: one time in four as large but for a factor near 1.
+inline double random_argument_beside(double x, std::mt19937_64& random, Type type) {
+  return random() % 4 == 0 ? rounded(x * random_near_one(random, type), type) : random_argument(random, type);
 }
 
 }  // namespace imp::test
