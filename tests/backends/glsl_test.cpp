@@ -123,7 +123,7 @@ TEST(Glsl, refuses_what_would_take_too_long_or_not_end) {
   for (int i = 0; i < 5000; ++i) x = x * x + 1.0;
   test::output(large, "f", x);
   EXPECT_EQ(refusal_of(large),
-            "this takes 10000 operations, and a shader has at most 4000; use --backend=llvm");
+            "this takes 10000 operations, and a shader has at most 3000; use --backend=llvm");
 
   Program slow;
   Loop loop(slow, "wait", 100'000);

@@ -37,10 +37,9 @@ TEST_P(Shaders, show_the_same_picture) {
     }
     // An enclosure is wider by up to a step of the numbers at each op: in float some that are just proven
     // are drawn, but undecided.
-    EXPECT_LE(drawn_otherwise, shown.verdict.size() / 200) << test::verdicts(expected) << test::verdicts(shown);
-    if (precision == f64) {
-      EXPECT_EQ(test::verdicts(shown), test::verdicts(expected));
-    }
+    EXPECT_LE(drawn_otherwise, shown.verdict.size() / 200)
+        << test::verdicts(expected) << test::verdicts(shown);
+    if (precision == f64) { EXPECT_EQ(test::verdicts(shown), test::verdicts(expected)); }
     EXPECT_GT(shown.count(verdict_hit), 0U);
   }
 }
