@@ -10,8 +10,8 @@
 namespace imp {
 namespace {
 
-// A driver's compiler takes more than linear time: 30 s are about here (docs/decisions/glsl.md).
-constexpr std::uint64_t most_operations = 4000;
+// A driver's compiler takes more than linear time, about 15 s here (docs/decisions/glsl.md).
+constexpr std::uint64_t most_operations = 3000;
 // llvmpipe leaves all loops of a shader, without a word, after 65535 steps in all.
 constexpr std::uint64_t most_steps = 65535;
 constexpr std::uint32_t longest_table = 1024;

@@ -18,7 +18,7 @@ constexpr Helper helpers[] = {
      {"bool is_negative(float a) { return floatBitsToInt(a) < 0; }\n",
       "bool is_negative(double a) { return int(unpackDouble2x32(a).y) < 0; }\n"}},
     {"raise",
-     {R"(// What rounded to r lies at or below the result.
+     {R"(// The next number above r, or more: what rounded to r lies at or below it.
 $T raise($T r) {
   precise $T finite = r < -$largest ? -$largest : r;
   precise $T raised = finite + (abs(finite) * $step + $tiny);
@@ -116,7 +116,7 @@ constexpr Word words[] = {
     {"$T", {"float", "double"}},
     {"$zero", {"zero", "zero_f64"}},
     {"$largest", {"3.4028235e+38", "1.7976931348623157e+308lf"}},
-    {"$step", {"1.1920929e-07", "2.220446049250313e-16lf"}},
+    {"$step", {"5.960465e-08", "1.1102230246251568e-16lf"}},
     {"$tiny", {"1.17549435e-38", "2.2250738585072014e-308lf"}},
     {"$bias", {"127", "1023"}},
     {"$shift", {"100", "960"}},

@@ -22,9 +22,11 @@ std::vector<std::string_view> helper_names();
 // The text of `used` and of all that they call. What they promise is in the column `meaning` of
 // ir/ops.def; an upward result may lie above the least one:
 //
-//   It is the nearest number r, raised by |r| 2^-23 + 2^-126 (double: 2^-52, 2^-1022): at least one step,
-//   and what a driver loses that flushes denormal results. A result below zero is not raised above it, an
-//   exact zero stays, and one that overflowed to -inf is the least finite number before it is raised.
+//   It is the nearest number r, to which |r| u (1 + 2u) + 2^-126 is added, u = 2^-24 (double: 2^-53 and
+//   2^-1022). That is the number after r (Rump, Zimmermann, Boldo, Melquiond 2009: Computing predecessor
+//   and successor in rounding to nearest), and near zero what a driver loses that flushes denormal results.
+//   A result below zero is not raised above it, an exact zero stays, and one that overflowed to -inf is
+//   the least finite number before it is raised.
 //
 // They expect the uniforms `zero` and `zero_f64`: Mesa folds x * 0 and x + 0, whatever x is, where it sees
 // the 0, in spite of `precise`.

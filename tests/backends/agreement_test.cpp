@@ -126,7 +126,7 @@ template <class T>
 double raised(double least) {
   using Limits = std::numeric_limits<T>;
   const T finite = std::max(static_cast<T>(least), Limits::lowest());
-  return finite + 2 * (std::abs(finite) * Limits::epsilon() + Limits::min());
+  return std::nextafter(finite, INFINITY) + 2 * Limits::min();
 }
 
 // The op in a Program that rounds upward or does not, with all operands given.

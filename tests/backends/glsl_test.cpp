@@ -51,10 +51,10 @@ TEST(GlslGolden, a_program_as_text) {
 TEST(Glsl, computes_the_example) {
   IMP_NEEDS_GL();
   const auto kernel = test::shader_of(example());
-  const auto got = run(*kernel, {{2}, {0, 10, 20}, {0.5, 1, 2}}, 3);
+  const auto got = run(*kernel, {{2}, {0, 10, 20}, {0.5, 1, 20}}, 3);
   EXPECT_EQ(got[0][0], 1);
   EXPECT_EQ(got[0][1], 65536);
-  EXPECT_EQ(got[2], (Column{5, 5, 4}));
+  EXPECT_EQ(got[2], (Column{5, 5, 3}));
   EXPECT_EQ(got[3], (Column{0, 1, 1}));
   EXPECT_GT(got[1][0], 21);
   EXPECT_LT(got[1][0], 21.00001);
@@ -123,7 +123,7 @@ TEST(Glsl, refuses_what_would_take_too_long_or_not_end) {
   for (int i = 0; i < 5000; ++i) x = x * x + 1.0;
   test::output(large, "f", x);
   EXPECT_EQ(refusal_of(large),
-            "this takes 10000 operations, and a shader has at most 4000; use --backend=llvm");
+            "this takes 10000 operations, and a shader has at most 3000; use --backend=llvm");
 
   Program slow;
   Loop loop(slow, "wait", 100'000);
