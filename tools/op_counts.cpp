@@ -41,7 +41,8 @@ Table op_counts(const Program& program) {
   std::vector<std::size_t> ops;
   for (std::size_t op = 0; op < total.size(); ++op)
     if (total[op] > 0) ops.push_back(op);
-  std::ranges::stable_sort(ops, std::ranges::greater{}, [&](std::size_t op) { return total[op]; });
+  std::ranges::sort(ops, {},
+                    [&](std::size_t op) { return std::pair(-static_cast<std::ptrdiff_t>(total[op]), op); });
 
   Table table{{"op"}};
   for (const std::size_t op : ops) table.push_back({std::string(info(static_cast<Op>(op)).name)});
