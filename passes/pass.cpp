@@ -41,8 +41,8 @@ Program run_one(const Program& program, const Pass& pass, PassTrace* trace) {
   if (trace) {
     const bool changed = !(next == program);  // dead nodes and numbers aside
     trace->times.push_back({pass.name, time, program.graph.size(), next.graph.size(), changed});
-    const bool wanted = trace->print_after.empty() || trace->print_after == pass.name;
-    if (trace->text && changed && wanted) *trace->text << "== " << pass.name << '\n' << to_text(next);
+    const bool wanted = trace->print_after.empty() ? changed : trace->print_after == pass.name;
+    if (trace->text && wanted) *trace->text << "== " << pass.name << '\n' << to_text(next);
   }
   return next;
 }

@@ -35,7 +35,7 @@ struct PassTime {
 struct PassTrace {
   std::vector<PassTime> times;
   std::ostream* text = nullptr;  // where set: the Program after each pass that changed it
-  std::string_view print_after;  // where set: only after this pass
+  std::string_view print_after;  // where set: only after this pass, changed or not
 };
 
 // Runs `passes` in order, first on what the Program calls: a pass that changes inputs or outputs is

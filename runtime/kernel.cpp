@@ -41,9 +41,17 @@ std::expected<std::unique_ptr<Kernel>, Refusal> compile_for_gl(Program program, 
 
 }  // namespace
 
+std::vector<Pass> passes_for(const KernelOptions& options) {
+  std::vector<Pass> passes;
+  if (!options.outward) passes.push_back(to_nearest);
+  passes.insert(passes.end(), kernel_passes().begin(), kernel_passes().end());
+  return passes;
+}
+
+std::vector<Pass> all_passes() { return passes_for({.outward = false}); }
+
 Program lower(Program program, const KernelOptions& options, PassTrace* trace) {
-  if (!options.outward) program = run_passes(std::move(program), std::span(&to_nearest, 1), trace);
-  return run_passes(std::move(program), kernel_passes(), trace);
+  return run_passes(std::move(program), passes_for(options), trace);
 }
 
 std::expected<std::unique_ptr<Kernel>, Refusal> make_kernel(Program program, const KernelOptions& options,

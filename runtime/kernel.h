@@ -23,6 +23,12 @@ struct Timings {
   std::vector<Entry> entries;
 };
 
+// What `lower` runs, in order.
+std::vector<Pass> passes_for(const KernelOptions& options);
+
+// What it may run, whatever the options.
+std::vector<Pass> all_passes();
+
 // The Program as a backend gets it.
 Program lower(Program program, const KernelOptions& options, PassTrace* trace = nullptr);
 

@@ -159,6 +159,13 @@ class Pixel {
       output("normal.z", where_found(sight.normal[2], 0));
     }
     if (options_.steps) output("steps", to(f32, sight.found.steps));
+    if (!options_.ray) return;
+    constexpr const char* names[] = {"origin.x",    "origin.y",    "origin.z",
+                                     "direction.x", "direction.y", "direction.z"};
+    for (std::size_t i = 0; i < 3; ++i) output(names[i], ray_.origin[i]);
+    for (std::size_t i = 0; i < 3; ++i) output(names[3 + i], ray_.direction[i]);
+    output("near", clip_.near);
+    output("far", clip_.far);
   }
 
   const Model& model_;

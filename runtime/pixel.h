@@ -10,7 +10,8 @@ namespace imp {
 
 // The inputs of a stage (ir/stage.h), the frame inputs of runtime/view.h and the uniforms (f64);
 // outputs, f32: red, green, blue (linear), verdict, and as asked depth, normal.x, normal.y,
-// normal.z, steps.
+// normal.z, steps; or, for `ray`, origin.x, …, direction.x, …, near, far: the ray, and where it
+// enters and leaves the domain.
 std::optional<Program> pixel_program(const Model& model, const RenderOptions& options,
                                      Diagnostics& diagnostics);
 

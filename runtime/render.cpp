@@ -57,15 +57,7 @@ std::optional<Renderer> Renderer::make(const Model& model, const RenderOptions& 
 
 Picture Renderer::frame(const UniformValues& uniforms, std::stop_token stop,
                         const std::function<void(double)>& progress) const {
-  const Numbers numbers(*model_, uniforms);
-  const auto names = uniform_names(*model_);
-  const auto values = frame_values(*model_, numbers, options_.width, options_.height);
-  const FrameValue frame_value = [&](const Input& input) -> const void* {
-    if (input.type == f32) return &values.at(input.name);
-    const auto it = std::ranges::find(names, input.name, uniform_input);
-    return &uniforms[static_cast<std::size_t>(it - names.begin())];
-  };
-
+  const FrameInputs inputs(*model_, uniforms, options_.width, options_.height);
   Picture picture{options_.width, options_.height, {}, {}, {}, {}, {}};
   std::vector<Target> channels;
   for (const Output& output : kernel_->program().outputs) {
@@ -83,8 +75,8 @@ Picture Renderer::frame(const UniformValues& uniforms, std::stop_token stop,
     }
   };
   const RunnableStage stage{{tile, tile, 1}, kernel_};
-  run_stages(std::span(&stage, 1), {picture.width, picture.height}, frame_value, sink, *options_.workers,
-             std::move(stop), progress);
+  run_stages(std::span(&stage, 1), {picture.width, picture.height}, std::cref(inputs), sink,
+             *options_.workers, std::move(stop), progress);
   return picture;
 }
 

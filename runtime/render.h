@@ -25,7 +25,8 @@ struct RenderOptions {
   SearchLimits limits;
   Thin thin = Thin::draw;
   bool depth = false, normal = false, steps = false, verdict = false;  // further channels
-  std::shared_ptr<Workers> workers;                                    // null: a team of one thread a core
+  bool ray = false;                  // and what a picture has no place for: see pixel_program
+  std::shared_ptr<Workers> workers;  // null: a team of one thread a core
   KernelOptions kernel;
 };
 

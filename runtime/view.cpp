@@ -196,4 +196,15 @@ std::map<std::string, float> frame_values(const Model& model, const Numbers& num
   return values.values;
 }
 
+FrameInputs::FrameInputs(const Model& model, UniformValues uniforms, std::size_t width, std::size_t height)
+    : names_(uniform_names(model)),
+      uniforms_(std::move(uniforms)),
+      values_(frame_values(model, Numbers(model, uniforms_), width, height)) {}
+
+const void* FrameInputs::operator()(const Input& input) const {
+  if (input.type == f32) return &values_.at(input.name);
+  const auto it = std::ranges::find(names_, input.name, uniform_input);
+  return &uniforms_[static_cast<std::size_t>(it - names_.begin())];
+}
+
 }  // namespace imp

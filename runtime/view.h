@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "frontend/model.h"
 #include "runtime/numbers.h"
@@ -34,5 +35,17 @@ std::optional<SpaceBounds> space_bounds(const Model& model);
 // or domain.center.x and domain.radius, light0.x, light0.r, ….
 std::map<std::string, float> frame_values(const Model& model, const Numbers& numbers, std::size_t width,
                                           std::size_t height);
+
+// The same values and the uniforms, where the inputs of rate frame of a pixel's Program find them.
+class FrameInputs {
+ public:
+  FrameInputs(const Model& model, UniformValues uniforms, std::size_t width, std::size_t height);
+  const void* operator()(const Input& input) const;
+
+ private:
+  std::vector<std::string> names_;  // of the uniforms
+  UniformValues uniforms_;
+  std::map<std::string, float> values_;
+};
 
 }  // namespace imp

@@ -7,16 +7,6 @@
 namespace imp::tools {
 namespace {
 
-constexpr Choice programs[] = {
-    {"f", ""},
-    {"gradient", ""},
-    {"hessian", ""},
-    {"interval", ""},
-    {"affine", "", false},
-    {"taylor", "", false},
-    {"mean-value", "", false},
-};
-
 std::vector<std::string_view> columns_of(Evaluation evaluation) {
   switch (evaluation) {
     case Evaluation::f:        return {"f"};
@@ -56,8 +46,8 @@ Action add_eval(CLI::App& verb) {
   auto eval = std::make_shared<Eval>();
   add_paths(verb, eval->job, "--points",
             "points (x,y,z) or boxes (xlo,xhi,ylo,yhi,zlo,zhi), with a header line");
-  add_choice(verb, "--program", programs, "what is evaluated", [=](std::size_t i) {
-    eval->evaluation = *evaluation_named(programs[i].name);
+  add_choice(verb, "--program", evaluations(), "what is evaluated", [=](std::size_t i) {
+    eval->evaluation = *evaluation_named(evaluations()[i].name);
   })->required();
   add_options(verb, eval->options);
   return [eval] { return eval->run(); };

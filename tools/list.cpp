@@ -7,32 +7,16 @@
 
 #include "backends/llvm/target.h"
 #include "ir/op.h"
-#include "passes/pass.h"
+#include "runtime/kernel.h"
 #include "tools/input.h"
 #include "tools/options.h"
+#include "tools/text_table.h"
 #include "tools/verbs.h"
 
 namespace imp::tools {
 namespace {
 
 namespace fs = std::filesystem;
-
-using Row = std::vector<std::string>;
-using Table = std::vector<Row>;
-
-// Columns as wide as their widest cell.
-std::string to_text(const Table& table) {
-  std::vector<std::size_t> width(table[0].size());
-  for (const Row& row : table)
-    for (std::size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], row[i].size());
-  std::string text;
-  for (const Row& row : table) {
-    std::string line;
-    for (std::size_t i = 0; i < row.size(); ++i) line += fmt::format("{:{}}  ", row[i], width[i]);
-    text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-  }
-  return text;
-}
 
 Table searches_table() {
   Table table;
@@ -59,7 +43,7 @@ std::string_view word(Preserves preserves) {
 
 Table passes_table() {
   Table table;
-  for (const Pass& pass : kernel_passes())
+  for (const Pass& pass : all_passes())
     table.push_back({std::string(pass.name), std::string(word(pass.preserves))});
   return table;
 }

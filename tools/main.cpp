@@ -26,9 +26,9 @@ constexpr std::array verbs{
     Verb{"cast", "the first hit of every ray of a table", add_cast},
     Verb{"check", "say what is wrong in files", add_check},
     Verb{"list", "searches, inclusions, passes, ops, targets, surfaces", add_list},
+    Verb{"inspect", "the Program behind a surface, and what becomes of it", add_inspect},
+    Verb{"trace", "what the search did for one pixel, step by step", add_trace},
     Verb{"compile", "", nullptr},
-    Verb{"inspect", "", nullptr},
-    Verb{"trace", "", nullptr},
     Verb{"bench", "", nullptr},
     Verb{"view", "", nullptr},
 };

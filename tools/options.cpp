@@ -31,6 +31,16 @@ constexpr Choice inclusion_choices[] = {
     {"mean-value", "the mean value form", false},
 };
 
+constexpr Choice evaluation_choices[] = {
+    {"f", ""},
+    {"gradient", ""},
+    {"hessian", ""},
+    {"interval", ""},
+    {"affine", "", false},
+    {"taylor", "", false},
+    {"mean-value", "", false},
+};
+
 std::vector<Choice> target_choices(const std::vector<CpuTarget>& targets) {
   std::vector<Choice> choices;
   choices.reserve(targets.size());
@@ -64,6 +74,21 @@ Override read_override(const std::string& text) {
   if (equals == 0 || equals == std::string::npos)
     refuse(option, fmt::format("'{}' is not of the form name=value", text));
   return {text.substr(0, equals), read_real(option, std::string_view(text).substr(equals + 1))};
+}
+
+constexpr std::size_t longest_side = 65536;
+constexpr std::size_t most_pixels = std::size_t{1} << 28;
+
+// 1024x768
+std::pair<std::size_t, std::size_t> read_size(std::string_view text) {
+  constexpr std::string_view option = "--size";
+  const std::size_t cross = text.find('x');
+  if (cross == std::string_view::npos) refuse(option, fmt::format("'{}' is not of the form 1024x1024", text));
+  const std::size_t width = read_count(option, text.substr(0, cross), 1, longest_side);
+  const std::size_t height = read_count(option, text.substr(cross + 1), 1, longest_side);
+  if (width * height > most_pixels)
+    refuse(option, fmt::format("{} has more than {} pixels", text, most_pixels));
+  return {width, height};
 }
 
 // "there are llvm, interpreter"
@@ -123,6 +148,12 @@ CLI::Option* add_choice(CLI::App& verb, const std::string& name, std::span<const
   });
 }
 
+void add_size(CLI::App& verb, RenderOptions& picture) {
+  add_value(verb, "--size", "WxH", "in pixels (1024x1024)", [&picture](const std::string& text) {
+    std::tie(picture.width, picture.height) = read_size(text);
+  });
+}
+
 void add_options(CLI::App& verb, Options& options) {
   static const std::vector<CpuTarget> targets = cpu_targets();
   static const std::vector<Choice> target_words = target_choices(targets);
@@ -164,6 +195,7 @@ void add_options(CLI::App& verb, Options& options) {
 }
 
 std::span<const Choice> inclusions() { return inclusion_choices; }
+std::span<const Choice> evaluations() { return evaluation_choices; }
 
 std::string_view backend_name(Backend backend) { return backends[static_cast<std::size_t>(backend)].name; }
 

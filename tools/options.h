@@ -12,6 +12,7 @@
 
 #include "runtime/numbers.h"
 #include "runtime/options.h"
+#include "runtime/render.h"
 #include "runtime/search/search.h"
 
 namespace imp::tools {
@@ -40,6 +41,9 @@ CLI::Option* add_value(CLI::App& verb, const std::string& names, const std::stri
 CLI::Option* add_choice(CLI::App& verb, const std::string& name, std::span<const Choice> choices,
                         const std::string& help, std::function<void(std::size_t)> take);
 
+// --size, for the picture's width and height.
+void add_size(CLI::App& verb, RenderOptions& picture);
+
 // What every verb that evaluates takes.
 struct Options {
   KernelOptions kernel;
@@ -56,6 +60,9 @@ struct Options {
 void add_options(CLI::App& verb, Options& options);
 
 std::span<const Choice> inclusions();
+
+// The Programs that tables of points and boxes go through, as --program names them.
+std::span<const Choice> evaluations();
 
 // The words for reports.
 std::string_view backend_name(Backend backend);

@@ -31,21 +31,6 @@ constexpr Choice thin_choices[] = {
 constexpr Choice tile_choices[] = {{"on", "beams first", false}, {"off", "every ray by itself"}};
 constexpr Choice channel_choices[] = {{"depth", ""}, {"normal", ""}, {"steps", ""}, {"verdict", ""}};
 
-constexpr std::size_t longest_side = 65536;
-constexpr std::size_t most_pixels = std::size_t{1} << 28;
-
-// 1024x768
-std::pair<std::size_t, std::size_t> read_size(std::string_view text) {
-  constexpr std::string_view option = "--size";
-  const std::size_t cross = text.find('x');
-  if (cross == std::string_view::npos) refuse(option, fmt::format("'{}' is not of the form 1024x1024", text));
-  const std::size_t width = read_count(option, text.substr(0, cross), 1, longest_side);
-  const std::size_t height = read_count(option, text.substr(cross + 1), 1, longest_side);
-  if (width * height > most_pixels)
-    refuse(option, fmt::format("{} has more than {} pixels", text, most_pixels));
-  return {width, height};
-}
-
 // One line on a terminal, for what takes long.
 class Progress {
  public:
@@ -196,9 +181,7 @@ Action add_render(CLI::App& verb) {
   verb.add_option("F.imp", render->file, "the file with the surfaces")->required()->type_name("");
   add_value(verb, "-o", "PATH", "the picture, .png or .exr; - is a .png on standard output (F.png)",
             [=](const std::string& path) { render->output = path; });
-  add_value(verb, "--size", "WxH", "in pixels (1024x1024)", [&picture](const std::string& text) {
-    std::tie(picture.width, picture.height) = read_size(text);
-  });
+  add_size(verb, picture);
   add_choice(verb, "--thin", thin_choices, "how undecided pixels are drawn (draw)",
              [&picture](std::size_t i) { picture.thin = static_cast<Thin>(i); });
   add_choice(verb, "--tiles", tile_choices, "whether tiles of rays are excluded together (off)",

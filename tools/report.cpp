@@ -49,11 +49,15 @@ void print_json(const Report& report, const Timings& timings, const Options& opt
 
 }  // namespace
 
+void print(const Timings& timings, const Options& options) {
+  for (const auto& [name, milliseconds] : timings.entries)
+    if (options.timings) fmt::print(stderr, "{:16} {:9.2f} ms\n", name, milliseconds);
+}
+
 void print(const Report& report, const Timings& timings, const Options& options) {
   if (options.stats == "json") return print_json(report, timings, options);
   if (options.stats == "text") print_text(report, options);
-  for (const auto& [name, milliseconds] : timings.entries)
-    if (options.timings) fmt::print(stderr, "{:16} {:9.2f} ms\n", name, milliseconds);
+  print(timings, options);
 }
 
 }  // namespace imp::tools

@@ -48,6 +48,9 @@ struct Report {
   std::optional<Steps> steps;
 };
 
+// What --timings asks for.
+void print(const Timings& timings, const Options& options);
+
 // As far as the options ask for it.
 void print(const Report& report, const Timings& timings, const Options& options);
 

@@ -21,5 +21,7 @@ Action add_eval(CLI::App& verb);
 Action add_cast(CLI::App& verb);
 Action add_check(CLI::App& verb);
 Action add_list(CLI::App& verb);
+Action add_inspect(CLI::App& verb);
+Action add_trace(CLI::App& verb);
 
 }  // namespace imp::tools

@@ -1,0 +1,126 @@
+// imp inspect: Programs as text, what passes do to them, and code for any processor.
+#include <algorithm>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "ir/text.h"
+#include "passes/pass.h"
+#include "tests/support/command.h"
+#include "tests/support/golden.h"
+
+namespace imp {
+namespace {
+
+using test::Answer;
+
+const std::string file =
+    "param a = 0.5 in [0.25, 1]\n"
+    "ring = sqrt(x^2 + y^2) - 1\n"
+    "surface torus: ring^2 + z^2 = a^2\n";
+
+Answer inspect(std::vector<std::string> words, const std::string& text = file) {
+  words.insert(words.begin(), {"inspect", "-"});
+  return test::imp(words, text);
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
+// How often a kernel goes through a pass.
+std::size_t runs_of(std::string_view pass) {
+  return static_cast<std::size_t>(std::ranges::count(kernel_passes(), pass, &Pass::name));
+}
+
+void expect_misuse(const std::vector<std::string>& words, const std::string& message) {
+  const Answer answer = inspect(words);
+  EXPECT_EQ(answer.exit, 2);
+  EXPECT_EQ(answer.out, "");
+  EXPECT_TRUE(answer.err.starts_with("error: " + message)) << answer.err;
+}
+
+TEST(InspectGolden, shows_a_program_with_the_names_of_its_author) {
+  const Answer answer = inspect({});
+  EXPECT_EQ(answer.exit, 0);
+  EXPECT_EQ(answer.err, "");
+  test::expect_golden("inspect.ir", answer.out);
+}
+
+// What is shown is a Program to every reader, counts included: they are comments.
+TEST(Inspect, shows_every_program) {
+  for (const std::string program : {"f", "gradient", "hessian", "interval", "cast", "pixel"})
+    for (const std::string precision : {"float", "double"}) {
+      const Answer answer = inspect({"--program", program, "--precision", precision});
+      ASSERT_EQ(answer.exit, 0) << answer.err;
+      Diagnostics diagnostics;
+      const auto shown = parse_program(answer.out, program, diagnostics);
+      ASSERT_TRUE(shown) << to_text(diagnostics);
+      EXPECT_EQ(shown->phases.size(), program == "cast" || program == "pixel" ? 2u : 0u);
+      EXPECT_EQ(to_text(*shown), inspect({"--emit=ir", "--program", program, "--precision", precision}).out);
+      EXPECT_NE(answer.out.find("\n# total "), std::string::npos);
+    }
+}
+
+TEST(Inspect, shows_what_every_pass_changed) {
+  const std::string out = inspect({"--passes", "--program=gradient"}).out;
+  EXPECT_TRUE(out.starts_with("== before the passes\nprogram torus\n")) << out;
+  EXPECT_NE(out.find("powi"), std::string::npos);
+  EXPECT_EQ(out.find("powi", out.find("\n== powers\n")), std::string::npos);
+  // The table has a row for every pass; a Program is shown after each that changed it.
+  const std::string table = out.substr(out.find("\n# pass "));
+  for (const Pass& pass : kernel_passes())
+    EXPECT_EQ(count(table, "\n# " + std::string(pass.name) + " "), runs_of(pass.name)) << pass.name;
+  EXPECT_EQ(count(out, "\n== ") + count(table, "unchanged\n"), kernel_passes().size());
+}
+
+TEST(Inspect, shows_a_program_after_one_pass) {
+  for (const Pass& pass : kernel_passes()) {
+    const std::string out = inspect({"--print-after", std::string(pass.name)}).out;
+    EXPECT_TRUE(out.starts_with("== " + std::string(pass.name) + "\nprogram torus\n")) << out;
+    EXPECT_EQ(count(out, "\nend\n"), runs_of(pass.name));
+  }
+  EXPECT_TRUE(inspect({"--rounding=nearest", "--program=interval", "--print-after=round-to-nearest"})
+                  .out.starts_with("== round-to-nearest\n"));
+}
+
+TEST(Inspect, knows_the_passes_that_are_listed) {
+  std::istringstream lines(test::imp({"list", "passes"}).out);
+  std::size_t passes = 0;
+  for (std::string line; std::getline(lines, line); ++passes) {
+    const std::string name = line.substr(0, line.find(' '));
+    EXPECT_EQ(inspect({"--print-after", name}).exit, 0) << name;
+  }
+  EXPECT_GE(passes, kernel_passes().size());
+}
+
+TEST(Inspect, emits_code_for_any_processor) {
+  EXPECT_NE(inspect({"--emit=ll", "--target=avx2"}).out.find("define "), std::string::npos);
+  const std::string wide = inspect({"--emit=asm", "--target=avx512"}).out;
+  const std::string narrow = inspect({"--emit=asm", "--target=sse4.1"}).out;
+  EXPECT_NE(wide.find("%zmm"), std::string::npos);
+  EXPECT_EQ(narrow.find("%ymm"), std::string::npos);
+  EXPECT_NE(narrow.find("sqrtps"), std::string::npos);
+}
+
+TEST(Inspect, refuses_by_name) {
+  expect_misuse({"--print-after", "pwers"}, "--print-after: unknown 'pwers'; did you mean 'powers'?");
+  expect_misuse({"--print-after", "all"}, "--print-after: unknown 'all'; there are ");
+  expect_misuse({"--emit=dot"}, "--emit: 'dot' is not there yet; there are ir, ll, asm");
+  expect_misuse({"--program=affine"}, "--program: 'affine' is not there yet; there are f, gradient");
+  expect_misuse({"--emit=asm", "--passes"}, "--emit: shows what comes after the passes");
+  expect_misuse({"--stats"}, "--stats: nothing is evaluated here");
+
+  EXPECT_EQ(test::imp({"inspect", "no.imp"}).err, "error: cannot read 'no.imp': No such file or directory\n");
+  const Answer unknown = inspect({"-D", "b=1"});
+  EXPECT_EQ(unknown.exit, 1);
+  EXPECT_NE(unknown.err.find("'b'"), std::string::npos) << unknown.err;
+  EXPECT_NE(inspect({}, "surface a: x = 0\nsurface b: y = 0\n").err.find("--surface: a, b"),
+            std::string::npos);
+  EXPECT_EQ(inspect({"--program=pixel"}, "surface a: x = 0\nsurface b: y = 0\n").exit, 0);
+}
+
+}  // namespace
+}  // namespace imp
