@@ -6,8 +6,10 @@
 #include <mpfr.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -73,84 +75,130 @@ struct FunctionError {
   }
 };
 
-// One function in one precision and one rounding mode, as a kernel.
-class FunctionKernel {
+// One function in one precision, whose type is `Number`, and one rounding mode, as a kernel.
+template <class Number>
+class KernelOf {
+  static constexpr bool single = std::is_same_v<Number, float>;
+  // Reference values: in double the math library is exact enough for floats, and quick.
+  using Exact = std::conditional_t<single, double, long double>;
+
  public:
-  FunctionKernel(Op op, Type type, bool upward) : op_(op), type_(type) {
+  KernelOf(Op op, bool upward) : op_(op), binary_(info(op).arity == 2) {
+    const Type type = single ? f32 : f64;
     Program program{.name = std::string(info(op).name)};
-    std::vector<Expr> args;
-    for (std::uint8_t i = 0; i < info(op).arity; ++i) args.push_back(input(program, i == 0 ? "x" : "y", f64));
-    std::vector<Expr> numbers = args;
-    if (type == f32)
-      for (Expr& number : numbers) number = narrow(number);
-    const Expr value = numbers.size() == 1 ? make(op, numbers[0]) : make(op, numbers[0], numbers[1]);
-    const auto wide = [&](Expr v) { return type == f32 ? widen(v) : v; };
-    output(program, "value", wide(value));
+    std::vector<Expr> args{input(program, "x", type)};
+    if (binary_) args.push_back(input(program, "y", type));
+    const Expr value = binary_ ? make(op, args[0], args[1]) : make(op, args[0]);
+    output(program, "value", value);
     if (upward) {  // what rounds upward makes the whole kernel do
-      output(program, "above", wide(elementary::above(op, value)));
-      output(program, "minus_below", wide(elementary::minus_below(op, value)));
+      output(program, "above", elementary::above(op, value));
+      output(program, "minus_below", elementary::minus_below(op, value));
     }
     auto kernel = make_kernel(std::move(program), {});
     IMP_ASSERT(kernel.has_value(), "a kernel of an elementary function");
     kernel_ = *std::move(kernel);
   }
 
-  FunctionError measure(const std::vector<double>& x, const std::vector<double>& y) const {
-    std::vector<Column> in{x};
-    if (info(op_).arity == 2) in.push_back(y);
-    const auto out = run_rows(*kernel_, in, x.size());
-    FunctionError result;
+  FunctionError measure(const std::vector<double>& wide_x, const std::vector<double>& wide_y) const {
+    const std::vector<Number> x(wide_x.begin(), wide_x.end()), y(wide_y.begin(), wide_y.end());
+    std::vector<std::vector<Number>> results(kernel_->program().outputs.size(), x);
+    std::vector<const void*> in{x.data()};
+    if (binary_) in.push_back(y.data());
+    std::vector<void*> out;
+    for (auto& result : results) out.push_back(result.data());
+    kernel_->run({x.size(), in, out});
+
+    FunctionError error;
+    error.tried = x.size();
     for (std::size_t i = 0; i < x.size(); ++i) {
-      const double second = info(op_).arity == 2 ? y[i] : 0;
-      ++result.tried;
-      judge(result, x[i], second, out, i);
+      const Number second = binary_ ? y[i] : 0;
+      const Exact right = exact_value(x[i], second);
+      switch (judge(error, x[i], second, results[0][i], right)) {
+        case Verdict::bounds_count:
+          if (results.size() > 1 && !within(right, results[1][i], results[2][i]))
+            complain(error, error.outside, x[i], second);
+          break;
+        case Verdict::wrong:    complain(error, error.wrong_kind, x[i], second); break;
+        case Verdict::no_value: break;
+      }
     }
-    return result;
+    return error;
   }
 
  private:
-  bool beyond(double x) const {
-    return (op_ == Op::sin || op_ == Op::cos || op_ == Op::tan) &&
-           std::abs(x) > elementary::largest_angle(type_);
+  enum class Verdict : std::int8_t { bounds_count, wrong, no_value };
+
+  Exact exact_value(Number x, Number y) const {
+    if constexpr (single)
+      return meaning::real<double>(op_, x, y, 0);
+    else
+      return exact(op_, x, y);
   }
 
-  // Everything that overflows counts as the first number beyond the range.
-  double ulps_off(double value, long double right) const {
-    const int lowest = type_ == f32 ? -126 : -1022, digits = type_ == f32 ? 23 : 52;
-    const long double end = std::ldexp(1.0L, type_ == f32 ? 128 : 1024);
-    const long double v = std::clamp<long double>(value, -end, end), r = std::clamp(right, -end, end);
-    const int exponent = r == 0 ? lowest : std::max(std::ilogb(r), lowest);
-    return static_cast<double>(std::abs(v - r) / std::ldexp(1.0L, exponent - digits));
+  bool beyond(Number x) const {
+    const bool angle = op_ == Op::sin || op_ == Op::cos || op_ == Op::tan;
+    return angle && std::abs(x) > elementary::largest_angle(single ? f32 : f64);
   }
 
-  void judge(FunctionError& result, double x, double y, const std::vector<Column>& out, std::size_t i) const {
-    const double value = out[0][i];
-    const long double right =
-        type_ == f32 ? static_cast<long double>(meaning::real<double>(op_, x, y, 0)) : exact(op_, x, y);
-    const auto wrong = [&](std::uint64_t& count) {
-      if (result.wrong_kind + result.outside == 0) result.wrong_x = x, result.wrong_y = y;
-      ++count;
-    };
-    if (std::isnan(right) || beyond(x)) {
-      if (!std::isnan(value)) wrong(result.wrong_kind);
-      return;
+  // Ulps between the two. What overflows counts as the first number beyond the range.
+  static double ulps_off(Number value, Exact right) {
+    constexpr int lowest = std::numeric_limits<Number>::min_exponent - 1;
+    constexpr int digits = std::numeric_limits<Number>::digits - 1;
+    static const Exact end = std::ldexp(Exact(1), lowest == -126 ? 128 : 1024);
+    const Exact v = std::clamp<Exact>(value, -end, end), r = std::clamp(right, -end, end);
+    if constexpr (single) {  // by the bits of a double: this is what takes the time
+      const int exponent = static_cast<int>((std::bit_cast<std::uint64_t>(r) >> 52) & 0x7ff) - 1023;
+      const auto scale = static_cast<std::uint64_t>(1023 + digits - std::max(exponent, lowest)) << 52;
+      return std::abs(v - r) * std::bit_cast<double>(scale);
+    } else {
+      const int exponent = r == 0 ? lowest : std::max(std::ilogb(r), lowest);
+      return static_cast<double>(std::ldexp(std::abs(v - r), digits - exponent));
     }
-    if (std::isnan(value) || (std::isinf(value) && std::isinf(right) && (value < 0) != (right < 0)) ||
-        (right == 0 && (value != 0 || std::signbit(value) != std::signbit(right)))) {
-      wrong(result.wrong_kind);
-      return;
-    }
-    const double error = ulps_off(value, right);
-    if (error > result.ulps) result.ulps = error, result.x = x, result.y = y;
-    if (out.size() == 1) return;
-    const long double uncertain = std::ldexp(std::abs(right), type_ == f32 ? -50 : -62);
-    const long double slack = std::isinf(right) ? 0 : uncertain;
-    if (!(out[1][i] >= right - slack) || !(out[2][i] >= -right - slack)) wrong(result.outside);
+  }
+
+  Verdict judge(FunctionError& error, Number x, Number y, Number value, Exact right) const {
+    if (std::isnan(right) || beyond(x)) return std::isnan(value) ? Verdict::no_value : Verdict::wrong;
+    if (std::isnan(value)) return Verdict::wrong;
+    if (std::isinf(value) && std::isinf(right) && (value < 0) != (right < 0)) return Verdict::wrong;
+    if (right == 0 && (value != 0 || std::signbit(value) != std::signbit(right))) return Verdict::wrong;
+    const double off = ulps_off(value, right);
+    if (off > error.ulps) error.ulps = off, error.x = x, error.y = y;
+    return Verdict::bounds_count;
+  }
+
+  // But for the error of the reference value.
+  static bool within(Exact right, Number above, Number minus_below) {
+    const Exact slack = std::isinf(right) ? 0 : std::abs(right) * Exact(single ? 0x1p-50 : 0x1p-62);
+    return above >= right - slack && minus_below >= -right - slack;
+  }
+
+  static void complain(FunctionError& error, std::uint64_t& count, Number x, Number y) {
+    if (error.wrong_kind + error.outside == 0) error.wrong_x = x, error.wrong_y = y;
+    ++count;
   }
 
   Op op_;
-  Type type_;
+  bool binary_;
   std::unique_ptr<Kernel> kernel_;
+};
+
+class FunctionKernel {
+ public:
+  FunctionKernel(Op op, Type type, bool upward) {
+    if (type == f32)
+      single_.emplace(op, upward);
+    else
+      double_.emplace(op, upward);
+  }
+
+  // `y` is of no matter to functions of one argument.
+  FunctionError measure(const std::vector<double>& x, const std::vector<double>& y) const {
+    return single_ ? single_->measure(x, y) : double_->measure(x, y);
+  }
+
+ private:
+  std::optional<KernelOf<float>> single_;
+  std::optional<KernelOf<double>> double_;
 };
 
 }  // namespace imp::test
