@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "backends/glsl/emit.h"
 #include "backends/llvm/compile.h"
 #include "ir/text.h"
 #include "runtime/evaluate.h"
@@ -33,13 +34,15 @@ Text emit_asm(const Program& program, const Options& options) {
   return emit_code(program, options, CodeForm::assembly);
 }
 
+Text emit_shader(const Program& program, const Options& /*options*/) { return emit_glsl(program); }
+
 struct Emission {
   std::string_view name;
   Text (*write)(const Program&, const Options&);  // null: not there yet
 };
 
 constexpr Emission emissions[] = {
-    {"ir", emit_ir}, {"ll", emit_ll}, {"asm", emit_asm}, {"glsl", nullptr}, {"dot", nullptr},
+    {"ir", emit_ir}, {"ll", emit_ll}, {"asm", emit_asm}, {"glsl", emit_shader}, {"dot", nullptr},
 };
 
 std::vector<Choice> emission_choices() {

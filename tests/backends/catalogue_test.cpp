@@ -1,4 +1,4 @@
-// Every polynomial of the catalogue on every target: value, gradient and enclosure, bit for bit.
+// Every surface of the catalogue on every target: value, gradient and enclosure, bit for bit.
 #include "tests/backends/llvm_support.h"
 #include "tests/support/cast.h"
 
@@ -47,7 +47,7 @@ TEST_P(Catalogue, of_all_targets_with_the_interpreter) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Surfaces, Catalogue, testing::ValuesIn(test::algebraic_entries()),
+INSTANTIATE_TEST_SUITE_P(Surfaces, Catalogue, testing::ValuesIn(test::all_entries()),
                          [](const auto& test) { return test.param->id; });
 
 // Code for a processor that this one need not be.

@@ -48,7 +48,7 @@ Count cast_all(const test::SurfaceEntry& entry, const KernelOptions& options) {
 
 double share_decided(const KernelOptions& options) {
   Count total;
-  for (const test::SurfaceEntry* entry : test::algebraic_entries()) {
+  for (const test::SurfaceEntry* entry : test::all_entries()) {
     const Count count = cast_all(*entry, options);
     total.easy += count.easy;
     total.decided += count.decided;
@@ -65,12 +65,6 @@ TEST(Search, certified_answers_are_right_in_double) { EXPECT_GT(share_decided({.
 TEST(Search, certified_answers_are_right_by_the_interpreter) {
   for (const char* id : {"sphere", "steiner", "torus", "kummer_16"})
     cast_all(test::entry_named(id), {.backend = Backend::interpreter});
-}
-
-// What is no polynomial but needs no elementary function either.
-TEST(Search, certified_answers_are_right_with_roots_and_quotients) {
-  for (const char* id : {"torus_sqrt", "blinn_blobby", "superquadric_knoll"})
-    for (const Type precision : {f32, f64}) cast_all(test::entry_named(id), {.precision = precision});
 }
 
 // As in the papers: nothing is certain then, but it runs, and finds what there is on a simple surface.

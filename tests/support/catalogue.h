@@ -24,6 +24,12 @@ inline const SurfaceEntry& entry_named(std::string_view id) {
   return *it;
 }
 
+inline std::vector<const SurfaceEntry*> all_entries() {
+  std::vector<const SurfaceEntry*> result;
+  for (const SurfaceEntry& entry : catalogue()) result.push_back(&entry);
+  return result;
+}
+
 // The polynomials.
 inline std::vector<const SurfaceEntry*> algebraic_entries() {
   std::vector<const SurfaceEntry*> result;

@@ -129,6 +129,7 @@ class KernelOf {
   enum class Verdict : std::int8_t { bounds_count, wrong, no_value };
 
   Exact exact_value(Number x, Number y) const {
+    if (beyond(x)) return std::numeric_limits<Exact>::quiet_NaN();
     if constexpr (single)
       return meaning::real<double>(op_, x, y, 0);
     else
@@ -157,7 +158,7 @@ class KernelOf {
   }
 
   Verdict judge(FunctionError& error, Number x, Number y, Number value, Exact right) const {
-    if (std::isnan(right) || beyond(x)) return std::isnan(value) ? Verdict::no_value : Verdict::wrong;
+    if (std::isnan(right)) return std::isnan(value) ? Verdict::no_value : Verdict::wrong;
     if (std::isnan(value)) return Verdict::wrong;
     if (std::isinf(value) && std::isinf(right) && (value < 0) != (right < 0)) return Verdict::wrong;
     if (right == 0 && (value != 0 || std::signbit(value) != std::signbit(right))) return Verdict::wrong;
