@@ -50,16 +50,15 @@ Expr log(Expr x) {
   return on_positive(x, log_of_parts(e, m - 1.0));
 }
 
-// log(1 + a + (sqrt(a^2 + 1) - 1)); where a^2 + 1 = a^2, log(2a).
+// log(1 + a + (sqrt(a^2 + 1) - 1)); for large a log(2a), which lacks 1/(4 a^2).
 Expr asinh(Expr x) {
   const bool single = x.type() == f32;
   const Expr a = abs(x), half = a * 0.5;
-  const Expr square = a * a;
-  const Expr above_1 = square * 0.5 / (sqrt(square + 1.0) + 1.0);
+  const Expr above_1 = half * (a / (sqrt(a * a + 1.0) + 1.0));
   const Expr center = constant_like(a, 0.5);
   const Sum linear = exact_sum(max(center, half), min(center, half));
   const Sum all = exact_sum(linear.high, above_1);
-  const Truth large = a > (single ? 0x1p13 : 0x1p28);
+  const Truth large = a > (single ? 0x1p10 : 0x1p27);
   const Sum near{select(large, a, all.high), select(large, zero(a), linear.low + all.low)};
   const Truth finite = a < std::numeric_limits<double>::infinity();
   return odd(x, select(finite, log_of_twice(near), a), single ? 0x1p-12 : 0x1p-27);
