@@ -84,7 +84,9 @@ const std::vector<Known> known{
     {Op::scale2, {0, inf}, 0},
     {Op::scale2, {1, nan}, nan},
     {Op::pow, {-2, 2}, nan},
-    {Op::pow, {nan, 0}, 1},
+    {Op::pow, {nan, 0}, nan},  // what has no value has no powers
+    {Op::pow, {0, 0}, 1},
+    {Op::pow, {1, nan}, nan},
     {Op::pow, {4, 0.5}, 2},
     {Op::lt, {1, 2}, 1},
     {Op::lt, {nan, 2}, 0},

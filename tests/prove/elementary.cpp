@@ -4,13 +4,11 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <mutex>
 #include <thread>
 
+#include "tests/prove/rows.h"
 #include "tests/support/arguments.h"
 #include "tests/support/function_error.h"
 
@@ -75,12 +73,7 @@ FunctionError special_arguments(const test::FunctionKernel& kernel, Op op, Type 
   return total;
 }
 
-struct Row {
-  std::string text;
-  bool holds;
-};
-
-Row row(Op op, Type type, bool upward, const ElementaryOptions& options) {
+std::string row_text(Op op, Type type, bool upward, const ElementaryOptions& options) {
   const test::FunctionKernel kernel(op, type, upward);
   FunctionError error = special_arguments(kernel, op, type);
   error.add(type == f32 && info(op).arity == 1 ? all_floats(kernel, options.stride)
@@ -95,7 +88,7 @@ Row row(Op op, Type type, bool upward, const ElementaryOptions& options) {
   if (error.wrong_kind + error.outside != 0)
     fmt::print(stderr, "{}: {} of a wrong kind, {} out of bounds, the first at {:a}, {:a}\n", text,
                error.wrong_kind, error.outside, error.wrong_x, error.wrong_y);
-  return {std::move(text), holds};
+  return text;
 }
 
 }  // namespace
@@ -110,22 +103,10 @@ bool elementary(const ElementaryOptions& options) {
     if (!options.only.empty() && std::ranges::find(options.only, name) == options.only.end()) continue;
     for (const Type type : {f32, f64})
       for (const bool upward : {false, true}) {
-        const auto file =
-            std::filesystem::path(options.done) /
+        const std::string key =
             fmt::format("{}-{}-{}", name, type == f32 ? "f32" : "f64", upward ? "up" : "nearest");
-        Row result;
-        if (std::ifstream known(file); !options.done.empty() && std::getline(known, result.text)) {
-          result.holds = result.text.ends_with("holds |");
-        } else {
-          result = row(op, type, upward, options);
-          if (!options.done.empty()) {
-            std::filesystem::create_directories(options.done);
-            std::ofstream(file) << result.text << '\n';
-          }
-        }
-        fmt::print("{}\n", result.text);
-        std::fflush(stdout);
-        all_hold &= result.holds;
+        const std::string text = row(options.done, key, [&] { return row_text(op, type, upward, options); });
+        all_hold &= text.ends_with("holds |");
       }
   }
   return all_hold;

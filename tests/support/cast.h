@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -17,11 +18,12 @@ namespace imp::test {
 struct Ray {
   std::array<double, 3> o, d;
   double tmin, tmax;
+  std::optional<double> time{};  // nothing: the default
 };
 
 inline std::vector<Ray> rays_of(const SurfaceEntry& entry) {
   std::vector<Ray> rays;
-  for (const RayRecord& ray : entry.rays) rays.push_back({ray.o, ray.d, ray.t0, ray.t1});
+  for (const RayRecord& ray : entry.rays) rays.push_back({ray.o, ray.d, ray.t0, ray.t1, ray.time});
   return rays;
 }
 
@@ -41,7 +43,8 @@ inline std::unique_ptr<Kernel> kernel_of(Program program, const KernelOptions& o
 class Caster {
  public:
   explicit Caster(const Model& model, const KernelOptions& options = {}, const SearchLimits& limits = {},
-                  const std::vector<Override>& overrides = {}) {
+                  const std::vector<Override>& overrides = {})
+      : moves_(model.time.has_value()) {
     Diagnostics diagnostics;
     auto uniforms = uniform_values(model, overrides, std::nullopt, diagnostics);
     auto program =
@@ -62,6 +65,10 @@ class Caster {
       columns[7].push_back(ray.tmax);
     }
     for (const double value : uniforms_) columns.push_back({value});
+    if (moves_) {  // the time is the last of the uniforms
+      columns.back().clear();
+      for (const Ray& ray : rays) columns.back().push_back(ray.time.value_or(uniforms_.back()));
+    }
     const auto out = run_rows(*kernel_, columns, rays.size());
     std::vector<Answer> answers;
     for (std::size_t i = 0; i < rays.size(); ++i)
@@ -71,6 +78,7 @@ class Caster {
   Answer operator()(const Ray& ray) const { return (*this)(std::span(&ray, 1)).front(); }
 
  private:
+  bool moves_;
   UniformValues uniforms_;
   std::unique_ptr<Kernel> kernel_;
 };
