@@ -41,7 +41,7 @@ T powi(T a, T n) {
 // The real power: NaN for a < 0 and where an operand is NaN, else as IEEE 754 pow, but that -0 is 0.
 template <class T>
 T pow(T a, T b) {
-  return a >= 0 && b == b ? std::pow(std::abs(a), b) : std::numeric_limits<T>::quiet_NaN();
+  return a >= 0 && !std::isnan(b) ? std::pow(std::abs(a), b) : std::numeric_limits<T>::quiet_NaN();
 }
 
 // floor(log2 |a|): -inf at 0, +inf at +-inf, NaN at NaN; true exponents for denormals.
