@@ -15,11 +15,12 @@ namespace {
 constexpr const char* library_name = "libOSMesa.so.8";
 
 // Of GL/osmesa.h.
-constexpr gl::Enum rgba = 0x1908, unsigned_byte = 0x1401;
-constexpr int core_profile_4_5[] = {0x22, 0x1908,  // OSMESA_FORMAT, OSMESA_RGBA
-                                    0x33, 0x34,    // OSMESA_PROFILE, OSMESA_CORE_PROFILE
-                                    0x36, 4,       // OSMESA_CONTEXT_MAJOR_VERSION
-                                    0x37, 5,       // OSMESA_CONTEXT_MINOR_VERSION
+constexpr int rgba = 0x1908;
+constexpr gl::Enum unsigned_byte = 0x1401;
+constexpr int core_profile_4_5[] = {0x22, rgba,  // OSMESA_FORMAT, OSMESA_RGBA
+                                    0x33, 0x34,  // OSMESA_PROFILE, OSMESA_CORE_PROFILE
+                                    0x36, 4,     // OSMESA_CONTEXT_MAJOR_VERSION
+                                    0x37, 5,     // OSMESA_CONTEXT_MINOR_VERSION
                                     0};
 
 template <class T>

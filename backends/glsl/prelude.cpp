@@ -162,7 +162,7 @@ std::string prelude(const Helpers& used) {
       const Scalar inner = function.starts_with("float") ? Scalar::f32 : scalar;
       for (const std::string_view called : helpers_in(function))
         if (called != helpers[i].name) all.emplace(called, inner);
-      text = function + '\n' + text;
+      text.insert(0, function + '\n');
     }
   return text;
 }
