@@ -1,5 +1,6 @@
 // Where the time goes from the start of the process to the pixels of a small picture: the sphere at
-// 64 x 64, nothing cached, by the command itself.
+// 64 x 64, nothing cached, by the command itself. A sum: how long a process takes that only says its version,
+// and the stages that another one times.
 #include <fmt/format.h>
 
 #include <chrono>

@@ -39,6 +39,14 @@ __m256 _ZGVdN8vv_powf(__m256, __m256);
 __m256 _ZGVdN8vv_atan2f(__m256, __m256);
 }
 
+void sleef_sincos(std::size_t n, const float* x, float* sines, float* cosines) {
+  for (std::size_t i = 0; i < n; i += 8) {
+    const auto both = Sleef_sincosf8_u10avx2(_mm256_loadu_ps(x + i));
+    _mm256_storeu_ps(sines + i, both.x);
+    _mm256_storeu_ps(cosines + i, both.y);
+  }
+}
+
 ArrayFunction sleef(Op op) {
   switch (op) {
     case Op::exp:   return unary<Sleef_expf8_u10avx2>;

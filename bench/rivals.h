@@ -15,4 +15,7 @@ using ArrayFunction = void (*)(std::size_t n, const float* x, const float* y, fl
 ArrayFunction sleef(Op op);
 ArrayFunction libmvec(Op op);
 
+// Both at once, by SLEEF.
+void sleef_sincos(std::size_t n, const float* x, float* sines, float* cosines);
+
 }  // namespace imp::bench

@@ -8,18 +8,36 @@
 namespace imp::elementary {
 namespace {
 
+enum class Values : std::int8_t {
+  any,
+  never_negative,
+  fading,  // of any sign, and fading out to 0
+};
+
 struct Row {
   Op op;
   double f32_ulps, f64_ulps;
-  bool never_negative;
+  Values values;
 };
 
 constexpr Row rows[] = {
-    {Op::exp, 2, 4, true},    {Op::log, 2, 4, false},  {Op::pow, 2, 4, true},    {Op::cbrt, 2, 4, false},
-    {Op::sin, 2, 4, false},   {Op::cos, 2, 4, false},  {Op::tan, 2, 4, false},   {Op::asin, 2, 4, false},
-    {Op::acos, 2, 4, true},   {Op::atan, 2, 4, false}, {Op::atan2, 2, 4, false}, {Op::sinh, 2, 4, false},
-    {Op::cosh, 2, 4, true},   {Op::tanh, 2, 4, false}, {Op::asinh, 2, 4, false}, {Op::acosh, 2, 4, true},
-    {Op::atanh, 2, 4, false},
+    {Op::exp, 2, 4, Values::never_negative},
+    {Op::log, 2, 4, Values::any},
+    {Op::pow, 2, 4, Values::never_negative},
+    {Op::cbrt, 2, 4, Values::any},
+    {Op::sin, 2, 4, Values::any},
+    {Op::cos, 2, 4, Values::any},
+    {Op::tan, 2, 4, Values::any},
+    {Op::asin, 2, 4, Values::any},
+    {Op::acos, 2, 4, Values::never_negative},
+    {Op::atan, 2, 4, Values::any},
+    {Op::atan2, 2, 4, Values::fading},
+    {Op::sinh, 2, 4, Values::any},
+    {Op::cosh, 2, 4, Values::never_negative},
+    {Op::tanh, 2, 4, Values::any},
+    {Op::asinh, 2, 4, Values::any},
+    {Op::acosh, 2, 4, Values::never_negative},
+    {Op::atanh, 2, 4, Values::any},
 };
 
 const Row* row_of(Op op) {
@@ -56,24 +74,28 @@ std::optional<double> ulps(Op op, Type type) {
 
 double largest_angle(Type type) { return type == f32 ? 12'800 : 0x1p22; }
 
-// A denormal is off by an ulp at most, which the rounding of its product pays; but for those of functions
-// that fade out to 0, exp and pow, whose bounds there are 0 and the smallest normal number. What overflows
-// passes the exact value on one side only. NaN stays.
+// Where the exact value is no denormal, the computed one is not 0; but exp, pow and atan2 fade out to 0, and a
+// driver may round what is left of them to 0: there the bound is the smallest normal number. Other denormals
+// are off by an ulp at most, which the rounding of their product pays. What overflows passes the exact value
+// on one side only. NaN stays.
 Expr above(Op op, Expr value) {
   const Row* row = row_of(op);
   IMP_ASSERT(row, "an elementary function");
   const Type type = value.type();
-  if (!row->never_negative) return max(constant_like(value, -largest(type)), grown(*row, value));
-  return max(constant_like(value, smallest_normal(type)),
-             mul_up(value, constant_like(value, 1 + share(*row, type))));
+  const Expr lowest = constant_like(value, -largest(type)),
+             tiny = constant_like(value, smallest_normal(type));
+  if (row->values == Values::never_negative)
+    return max(tiny, mul_up(value, constant_like(value, 1 + share(*row, type))));
+  const Expr up = max(lowest, grown(*row, value));
+  return row->values == Values::fading ? select(abs(value) < tiny, tiny, up) : up;
 }
 
 Expr minus_below(Op op, Expr value) {
   const Row* row = row_of(op);
   IMP_ASSERT(row, "an elementary function");
+  if (row->values != Values::never_negative) return above(op, -value);
   const Type type = value.type();
   const Expr lowest = constant_like(value, -largest(type));
-  if (!row->never_negative) return max(lowest, grown(*row, -value));
   const Expr down = mul_up(-value, constant_like(value, 1 - share(*row, type)));
   return select(value < constant_like(value, smallest_normal(type)), zero(value), max(lowest, down));
 }

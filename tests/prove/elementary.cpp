@@ -103,8 +103,8 @@ bool elementary(const ElementaryOptions& options) {
     if (!options.only.empty() && std::ranges::find(options.only, name) == options.only.end()) continue;
     for (const Type type : {f32, f64})
       for (const bool upward : {false, true}) {
-        const std::string key =
-            fmt::format("{}-{}-{}", name, type == f32 ? "f32" : "f64", upward ? "up" : "nearest");
+        const std::string key = fmt::format("{}-{}-{}-{}-{}", name, type == f32 ? "f32" : "f64",
+                                            upward ? "up" : "nearest", options.stride, options.samples);
         const std::string text = row(options.done, key, [&] { return row_text(op, type, upward, options); });
         all_hold &= text.ends_with("holds |");
       }

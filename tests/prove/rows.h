@@ -12,7 +12,8 @@
 namespace imp::prove {
 
 // The row `key`, from the folder `done` or else by `compute()`, printed. A file is written under a
-// temporary name and renamed, so that it is whole. `done` may be empty: nothing is remembered.
+// temporary name and renamed, so that it is whole. The key holds all that the row depends on, but for the
+// code: empty the folder when that changes. `done` may be empty: nothing is remembered.
 template <class Compute>
 std::string row(const std::string& done, const std::string& key, Compute compute) {
   const std::filesystem::path file = std::filesystem::path(done) / key;

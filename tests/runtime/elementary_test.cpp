@@ -3,6 +3,7 @@
 
 #include "tests/support/arguments.h"
 #include "tests/support/function_error.h"
+#include "tests/support/shader.h"
 
 namespace imp {
 namespace {
@@ -85,6 +86,14 @@ INSTANTIATE_TEST_SUITE_P(Functions, Elementary,
 
 TEST_P(Elementary, is_within_its_bound) {
   const FunctionKernel kernel(op(), type(), upward());
+  expect_within_bounds(kernel, samples(op(), type()));
+  expect_within_bounds(kernel, special(op(), type()));
+}
+
+// Shaders round to nearest, and raise the bounds by other means than machine code.
+TEST_P(Elementary, is_within_its_bound_in_shaders) {
+  IMP_NEEDS_GL();
+  const FunctionKernel kernel(op(), type(), upward(), Backend::glsl);
   expect_within_bounds(kernel, samples(op(), type()));
   expect_within_bounds(kernel, special(op(), type()));
 }

@@ -50,7 +50,7 @@ inline double rounded(long double x, Type type) {
 
 // A number that is 1 in this type's digits but for the last few, or but for all.
 inline double random_near_one(std::mt19937_64& random, Type type) {
-  const int digits = type == f32 ? 24 : 53;
+  const std::uint64_t digits = type == f32 ? 24 : 53;
   std::uniform_real_distribution<double> unit(-1, 1);
   return rounded(1 + unit(random) * std::ldexp(1.0, -static_cast<int>(random() % digits)), type);
 }

@@ -83,7 +83,8 @@ class KernelOf {
   using Exact = std::conditional_t<single, double, long double>;
 
  public:
-  KernelOf(Op op, bool upward) : op_(op), binary_(info(op).arity == 2) {
+  KernelOf(Op op, bool upward, Backend backend)
+      : op_(op), binary_(info(op).arity == 2), knows_nan_(backend != Backend::glsl) {
     const Type type = single ? f32 : f64;
     Program program{.name = std::string(info(op).name)};
     std::vector<Expr> args{input(program, "x", type)};
@@ -94,7 +95,7 @@ class KernelOf {
       output(program, "above", elementary::above(op, value));
       output(program, "minus_below", elementary::minus_below(op, value));
     }
-    auto kernel = make_kernel(std::move(program), {});
+    auto kernel = make_kernel(std::move(program), {.backend = backend});
     IMP_ASSERT(kernel.has_value(), "a kernel of an elementary function");
     kernel_ = *std::move(kernel);
   }
@@ -158,7 +159,7 @@ class KernelOf {
   }
 
   Verdict judge(FunctionError& error, Number x, Number y, Number value, Exact right) const {
-    if (std::isnan(right)) return std::isnan(value) ? Verdict::no_value : Verdict::wrong;
+    if (std::isnan(right)) return std::isnan(value) || !knows_nan_ ? Verdict::no_value : Verdict::wrong;
     if (std::isnan(value)) return Verdict::wrong;
     if (std::isinf(value) && std::isinf(right) && (value < 0) != (right < 0)) return Verdict::wrong;
     if (right == 0 && (value != 0 || std::signbit(value) != std::signbit(right))) return Verdict::wrong;
@@ -180,16 +181,17 @@ class KernelOf {
 
   Op op_;
   bool binary_;
+  bool knows_nan_;  // a driver may take NaN for a number (docs/decisions/glsl.md)
   std::unique_ptr<Kernel> kernel_;
 };
 
 class FunctionKernel {
  public:
-  FunctionKernel(Op op, Type type, bool upward) {
+  FunctionKernel(Op op, Type type, bool upward, Backend backend = Backend::llvm) {
     if (type == f32)
-      single_.emplace(op, upward);
+      single_.emplace(op, upward, backend);
     else
-      double_.emplace(op, upward);
+      double_.emplace(op, upward, backend);
   }
 
   // `y` is of no matter to functions of one argument.
