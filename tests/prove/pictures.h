@@ -14,7 +14,7 @@ struct PictureOptions {
 };
 
 // Prints the table in Markdown, row by row as they come. False where a verdict contradicts another, or
-// more than four pixels are drawn otherwise. A surface that is too large for a shader is "refused".
+// more than forty pixels are drawn otherwise. A surface that is too large for a shader is "refused".
 bool pictures(const PictureOptions& options);
 
 }  // namespace imp::prove
