@@ -10,17 +10,13 @@
 
 #include "tests/prove/rows.h"
 #include "tests/support/arguments.h"
+#include "tests/support/elementary_ops.h"
 #include "tests/support/function_error.h"
 
 namespace imp::prove {
 namespace {
 
 using test::FunctionError;
-
-constexpr Op ops[] = {
-#define OP(name, arity, kind, llvm, glsl, meaning) Op::name,
-#include "ir/ops.def"
-};
 
 constexpr std::size_t batch = 1 << 16;
 
@@ -97,8 +93,7 @@ bool elementary(const ElementaryOptions& options) {
   fmt::print("| function | type | rounding | arguments | largest error, ulps | at | bound | |\n");
   fmt::print("| --- | --- | --- | ---: | ---: | --- | ---: | --- |\n");
   bool all_hold = true;
-  for (const Op op : ops) {
-    if (info(op).kind != OpKind::elementary) continue;
+  for (const Op op : test::elementary_ops()) {
     const std::string name(info(op).name);
     if (!options.only.empty() && std::ranges::find(options.only, name) == options.only.end()) continue;
     for (const Type type : {f32, f64})

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/arguments.h"
+#include "tests/support/elementary_ops.h"
 #include "tests/support/function_error.h"
 #include "tests/support/shader.h"
 
@@ -10,18 +11,6 @@ namespace {
 
 using test::FunctionError;
 using test::FunctionKernel;
-
-constexpr Op ops[] = {
-#define OP(name, arity, kind, llvm, glsl, meaning) Op::name,
-#include "ir/ops.def"
-};
-
-std::vector<Op> elementary_ops() {
-  std::vector<Op> result;
-  for (const Op op : ops)
-    if (info(op).kind == OpKind::elementary) result.push_back(op);
-  return result;
-}
 
 struct Arguments {
   std::vector<double> x, y;
@@ -80,8 +69,8 @@ std::string name_of(const testing::TestParamInfo<std::tuple<Op, Type, bool>>& te
 }
 
 INSTANTIATE_TEST_SUITE_P(Functions, Elementary,
-                         testing::Combine(testing::ValuesIn(elementary_ops()), testing::Values(f32, f64),
-                                          testing::Bool()),
+                         testing::Combine(testing::ValuesIn(test::elementary_ops()),
+                                          testing::Values(f32, f64), testing::Bool()),
                          name_of);
 
 TEST_P(Elementary, is_within_its_bound) {

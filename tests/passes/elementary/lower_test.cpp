@@ -6,6 +6,7 @@
 #include "ir/text.h"
 #include "ir/verify.h"
 #include "tests/support/cost.h"
+#include "tests/support/elementary_ops.h"
 #include "tests/support/make.h"
 
 namespace imp {
@@ -14,18 +15,6 @@ namespace {
 using test::cost;
 using test::input;
 using test::output;
-
-constexpr Op ops[] = {
-#define OP(name, arity, kind, llvm, glsl, meaning) Op::name,
-#include "ir/ops.def"
-};
-
-std::vector<Op> elementary_ops() {
-  std::vector<Op> result;
-  for (const Op op : ops)
-    if (info(op).kind == OpKind::elementary) result.push_back(op);
-  return result;
-}
 
 Program program_of(std::initializer_list<Op> functions, Type type) {
   Program p;
@@ -61,7 +50,8 @@ std::string name_of(const testing::TestParamInfo<std::tuple<Op, Type>>& test) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Functions, LowerElementary,
-                         testing::Combine(testing::ValuesIn(elementary_ops()), testing::Values(f32, f64)),
+                         testing::Combine(testing::ValuesIn(test::elementary_ops()),
+                                          testing::Values(f32, f64)),
                          name_of);
 
 TEST_P(LowerElementary, leaves_basic_ops_of_one_type) {
