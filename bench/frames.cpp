@@ -16,6 +16,8 @@ void frame(benchmark::State& state, const std::string& name, bool outward) {
   options.workers = std::make_shared<Workers>(1);
   options.steps = true;
   options.limits.epsilon = 0x1p-11;
+  options.tiles = false;
+  options.wish = {search_named("stackless"), inclusion_named("ia")};
   options.kernel.outward = outward;
   const Scene drawn = scene(name, options);
   Picture picture;

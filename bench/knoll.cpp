@@ -62,6 +62,8 @@ Scene prepared(const char* surface, const std::shared_ptr<Workers>& workers, boo
   RenderOptions options;
   options.workers = workers;
   options.limits.epsilon = 0x1p-11;
+  options.tiles = false;
+  options.wish = {search_named("stackless"), inclusion_named("ia")};
   options.kernel.outward = outward;
   return scene(surface, options);
 }

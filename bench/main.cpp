@@ -1,4 +1,4 @@
-// imp_bench: tables by name (--table NAME), and else the benchmarks, as Google Benchmark runs them.
+// imp_bench: tables by name (--table NAME [--target NAME]), and else the benchmarks, as Google Benchmark runs them.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -17,6 +17,7 @@ constexpr Table tables[] = {
     {"knoll", imp::bench::print_knoll_table},
     {"first-pixel", imp::bench::print_first_pixel_table},
     {"elementary", imp::bench::print_elementary_table},
+    {"evaluations", imp::bench::print_evaluations_table},
 };
 
 int print_table(std::string_view name) {
@@ -31,6 +32,7 @@ int print_table(std::string_view name) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc == 5 && argv[3] == std::string_view("--target")) imp::bench::only_target = argv[4], argc = 3;
   if (argc == 3 && argv[1] == std::string_view("--table")) return print_table(argv[2]);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;

@@ -30,8 +30,8 @@ void packet(benchmark::State& state, const std::string& name, unsigned registers
   SearchLimits limits;
   limits.epsilon = 0x1p-11;
   Diagnostics diagnostics;
-  const auto program =
-      cast_program(example(name).surfaces[0], *search_named("stackless"), limits, f32, diagnostics);
+  const auto program = cast_program(example(name).surfaces[0], *search_named("stackless"),
+                                    inclusions().front(), limits, f32, diagnostics);
   const auto kernel = compile(lower(*program, {}), target);
   if (!kernel) return state.SkipWithError(kernel.error().message.c_str());
   const auto inputs = columns();

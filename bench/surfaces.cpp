@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -24,6 +26,15 @@ Model example(const std::string& name) {
   auto model = parse_model(text.str(), path, diagnostics);
   if (!model) fail(diagnostics);
   return *std::move(model);
+}
+
+std::vector<std::string> example_names() {
+  std::vector<std::string> names;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::string(IMP_SOURCE_DIR) + "/examples/surfaces"))
+    if (entry.path().extension() == ".imp") names.push_back(entry.path().stem());
+  std::ranges::sort(names);
+  return names;
 }
 
 Scene scene(const std::string& name, const RenderOptions& options) {

@@ -17,6 +17,7 @@ struct Scene {
 };
 
 Model example(const std::string& name);
+std::vector<std::string> example_names();  // in the order of the alphabet
 Scene scene(const std::string& name, const RenderOptions& options);
 
 // The surfaces of Knoll et al. 2009, Table 1, that are polynomials.

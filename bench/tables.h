@@ -1,15 +1,19 @@
 // Tables: figures that only mean something side by side, measured in turns within one run. In Markdown,
-// on standard output:  tools/dev bench --table NAME
+// on standard output:  tools/dev bench --table NAME [--target NAME]
 #pragma once
 
 #include <algorithm>
+#include <string_view>
 #include <vector>
 
 namespace imp::bench {
 
+inline std::string_view only_target;  // of --target; empty: every one that the table has and that runs here
+
 void print_knoll_table();        // frames of Knoll et al. 2009, Table 1
 void print_first_pixel_table();  // from the start of the process to the first pixel
 void print_elementary_table();   // elementary functions, a lane
+void print_evaluations_table();  // values, derivatives and enclosures, a lane
 
 // Of an odd number of values the one in the middle.
 inline double median(std::vector<double> values) {

@@ -10,7 +10,7 @@ if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release)
 endif()
 set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
-set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g")
+set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g1")
 
 add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor -Woverloaded-virtual -Werror)
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
@@ -34,6 +34,7 @@ if(IMP_SANITIZE)
   # No `function`: it reads the bytes before a kernel that was just compiled.
   set(sanitize -fsanitize=${IMP_SANITIZE} -fno-sanitize=function -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_compile_options(${sanitize})
+  add_compile_definitions(IMP_SANITIZED)
   add_link_options(${sanitize})
 endif()
 

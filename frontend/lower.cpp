@@ -1,7 +1,6 @@
 #include "frontend/lower.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -156,8 +155,6 @@ bool Lowering::power(const Node& node) {
   return true;
 }
 
-// T(2k, x) = 2 T(k, x)^2 - 1 and T(2k + 1, x) = 2 T(k, x) T(k + 1, x) - x. For an odd degree m, a pair
-// T(k), T(k + 1) is carried from k = 1 to m along the bits of m; a power of two is then left.
 bool Lowering::chebyshev(const Node& node) {
   const Id x = pop();
   const auto n = pop_integer();
@@ -165,30 +162,7 @@ bool Lowering::chebyshev(const Node& node) {
     return fail(ast_.span(node),
                 fmt::format("the degree of 'T' must be a constant integer from 0 to {}", largest_exponent));
 
-  const Id one = constant(1), two = constant(2);
-  const auto doubled = [&](Id t) {
-    return make(node, Op::sub, {make(node, Op::mul, {two, make(node, Op::powi, {t, two})}), one});
-  };
-  const auto between = [&](Id t, Id next) {
-    return make(node, Op::sub, {make(node, Op::mul, {two, make(node, Op::mul, {t, next})}), x});
-  };
-
-  const auto degree = static_cast<std::uint32_t>(*n);
-  if (degree == 0) {
-    values_.push_back(one);
-    return true;
-  }
-  const int halvings = std::countr_zero(degree);
-  const std::uint32_t odd = degree >> halvings;
-  Id t = x, next = odd > 1 ? doubled(x) : x;
-  for (int bit = static_cast<int>(std::bit_width(odd)) - 2; bit >= 0; --bit) {
-    const Id middle = between(t, next);
-    const bool one_more = (odd >> bit & 1u) != 0;
-    if (bit > 0) next = one_more ? doubled(next) : middle;
-    t = one_more ? middle : doubled(t);
-  }
-  for (int i = 0; i < halvings; ++i) t = doubled(t);
-  values_.push_back(t);
+  values_.push_back(make(node, Op::chebyshev, {x, constant(*n), constant(0)}));
   return true;
 }
 

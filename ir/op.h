@@ -47,6 +47,9 @@ constexpr bool commutes(Op op) {
          op == Op::and_ || op == Op::or_;
 }
 
+// Whether all operands but the first are constant integers.
+constexpr bool takes_integers(Op op) { return op == Op::powi || op == Op::chebyshev; }
+
 // True where a Program with this op rounds upward throughout (design: plain ops are then faithful).
 constexpr bool rounds_up(Op op) {
   return op == Op::add_up || op == Op::mul_up || op == Op::div_up || op == Op::sqrt_up || op == Op::fma_up ||

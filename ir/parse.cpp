@@ -285,9 +285,8 @@ class Parser : private TextReader {
     for (const Id arg : *args) types.push_back(program_.graph[arg].type);
     if (!check(at, type_of(*op, types).has_value(), "'{}' does not take {}", text, list(types))) return {};
     // Folding would compute with it.
-    if (*op == Op::powi && !check(at, is_exponent(program_.graph, (*args)[1]),
-                                  "the exponent of 'powi' is a constant integer of magnitude at most 2^20"))
-      return {};
+    const std::string_view wrong = wrong_integers(program_.graph, *op, *args);
+    if (!check(at, wrong.empty(), "{}", wrong)) return {};
     return program_.graph.add(*op, *args);
   }
 

@@ -17,7 +17,8 @@ namespace imp {
 //   column, row, slab  f32, rate ray: the place of the cell within its parent
 //   x0, y0             f32, rate cell: the first pixel of the parent
 // and reads its parent by tables of rate cell: one that is named as an output of the stage before
-// holds that output over the slabs of the parent cell, in order.
+// holds that output over the slabs of the parent cell, in order. Where a stage has an output `needed` that is
+// 0 for all slabs of a cell, the stages below do not run for it.
 struct Stage {
   std::array<std::uint32_t, 3> cells{1, 1, 1};
   Program program;

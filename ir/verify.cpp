@@ -6,6 +6,8 @@
 #include <cmath>
 #include <unordered_set>
 
+#include "ir/chebyshev.h"
+
 namespace imp {
 namespace {
 
@@ -161,9 +163,9 @@ class Verifier {
     std::vector<Type> types;
     for (const Id arg : node.args) types.push_back(graph_[arg].type);
     require(id, type_of(node.op, types) == node.type, "operands do not fit");
-    if (node.op == Op::powi && ok())
-      require(id, is_exponent(graph_, node.args[1]),
-              "the exponent is no constant integer of magnitude at most 2^20");
+    if (!ok()) return;
+    const std::string_view wrong = wrong_integers(graph_, node.op, node.args);
+    require(id, wrong.empty(), "{}", wrong);
   }
 
   // Which phases a node sees: the one whose states it uses (from 1; 0: none), and the last one whose
@@ -221,9 +223,20 @@ class Verifier {
 
 }  // namespace
 
-bool is_exponent(const Graph& graph, Id id) {
-  const auto value = graph.number(id);
-  return value && std::abs(*value) <= 1 << 20 && *value == std::trunc(*value);
+std::string_view wrong_integers(const Graph& graph, Op op, std::span<const Id> args) {
+  const auto is_integer = [&](std::size_t i, double least, double most) {
+    const auto value = graph.number(args[i]);
+    return value && least <= *value && *value <= most && *value == std::trunc(*value);
+  };
+  constexpr double limit = 1 << 20;
+  if (op == Op::powi && !is_integer(1, -limit, limit))
+    return "the exponent of 'powi' is a constant integer of magnitude at most 2^20";
+  if (op != Op::chebyshev) return {};
+  if (!is_integer(1, 0, largest_chebyshev_degree))
+    return "the degree of 'chebyshev' is a constant integer from 0 to 2^20";
+  if (!is_integer(2, 0, std::min(*graph.number(args[1]), largest_chebyshev_order)))
+    return "the order of 'chebyshev' is a constant integer from 0 to the degree, and at most 8";
+  return {};
 }
 
 std::string verify(const Program& program) { return Verifier(program).run(); }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "ir/chebyshev.h"
 #include "ir/regions.h"
 #include "ir/replay.h"
 #include "passes/multiprecision.h"
@@ -104,6 +105,14 @@ struct Rules {
     if (n == 0) return {1.0, false, a.continuous};
     const Known product = checked({power(a.x, std::abs(n)), false, a.continuous});
     return n < 0 ? div({1.0}, product) : product;
+  }
+  Known chebyshev(const Known& a, const Known& degree, const Known& order) {
+    if (a.empty) return nothing();
+    const auto integer = [](const Known& k) {
+      return static_cast<unsigned>(mpfr_get_ui(k.x.lo(), MPFR_RNDN));
+    };
+    const auto constant = [](double c) { return BigInterval(c); };
+    return checked({imp::chebyshev(a.x, integer(degree), integer(order), constant), false, a.continuous});
   }
   Known pow(const Known& a, const Known& b) {
     const Known base = within(a, 0, infinity);

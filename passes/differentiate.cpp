@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "ir/chebyshev.h"
 #include "ir/expr.h"
 #include "ir/replay.h"
 #include "passes/rewrite.h"
@@ -67,7 +68,8 @@ struct Dual {
 
 struct Rules {
   using Value = Dual;
-  Expr node;  // the one that is differentiated
+  Expr node;             // the one that is differentiated
+  bool refused = false;  // it has a derivative that no op is
 
   Dual is(const Derivative& d) const { return {node, d}; }
   Dual flat() const { return {node, std::nullopt}; }
@@ -96,6 +98,12 @@ struct Rules {
     if (n == 0) return flat();
     if (n == 1) return is(a.d);
     return is(a.d * (n * less_one(a.value, n)));
+  }
+  Dual chebyshev(Dual a, Dual degree, Dual order) {
+    const double k = number(order.value).value_or(0) + 1;
+    if (k > number(degree.value).value_or(0)) return flat();
+    refused = k > largest_chebyshev_order;
+    return refused ? flat() : is(a.d * make(Op::chebyshev, a.value, degree.value, constant_like(a.value, k)));
   }
   Dual pow(Dual a, Dual b) {
     Derivative by_base = a.d, by_exponent;
@@ -199,7 +207,7 @@ class Differentiator {
     if (flat) return true;
 
     Rules rules{{&graph_, id}};
-    if (const auto dual = apply(rules, node.op, args)) {
+    if (const auto dual = apply(rules, node.op, args); dual && !rules.refused) {
       derivatives_[id.index] = is_zero(dual->d) ? std::nullopt : dual->d;
       return true;
     }

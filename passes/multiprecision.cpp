@@ -3,6 +3,30 @@
 
 namespace imp {
 
+BigInterval operator+(const BigInterval& a, const BigInterval& b) {
+  BigInterval result;
+  mpfi_add(result, a, b);
+  return result;
+}
+
+BigInterval operator-(const BigInterval& a, const BigInterval& b) {
+  BigInterval result;
+  mpfi_sub(result, a, b);
+  return result;
+}
+
+BigInterval operator*(const BigInterval& a, const BigInterval& b) {
+  BigInterval result;
+  mpfi_mul(result, a, b);
+  return result;
+}
+
+BigInterval operator/(const BigInterval& a, const BigInterval& b) {
+  BigInterval result;
+  mpfi_div(result, a, b);
+  return result;
+}
+
 BigInterval power(const BigInterval& a, long n) {
   BigInterval base = a, result;
   if (n % 2 == 0) mpfi_abs(base, a);

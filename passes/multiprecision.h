@@ -44,6 +44,11 @@ class BigInterval {
   mpfi_t x_;
 };
 
+BigInterval operator+(const BigInterval& a, const BigInterval& b);
+BigInterval operator-(const BigInterval& a, const BigInterval& b);
+BigInterval operator*(const BigInterval& a, const BigInterval& b);
+BigInterval operator/(const BigInterval& a, const BigInterval& b);
+
 // a^n for n > 0.
 BigInterval power(const BigInterval& a, long n);
 

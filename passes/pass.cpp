@@ -9,6 +9,7 @@
 #include "ir/text.h"
 #include "ir/verify.h"
 #include "passes/canonicalize.h"
+#include "passes/chebyshev.h"
 #include "passes/elementary/lower.h"
 #include "passes/power.h"
 
@@ -17,6 +18,7 @@ namespace {
 
 constexpr Pass kernel[] = {
     {"elementary", Preserves::value, lower_elementary},
+    {"chebyshev", Preserves::bits, reduce_chebyshev},
     {"powers", Preserves::bits, reduce_powers},
     {"canonicalize", Preserves::bits, canonicalize},
     {"dead-code", Preserves::bits, compact},

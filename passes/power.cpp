@@ -2,7 +2,9 @@
 #include "passes/power.h"
 
 #include <cmath>
+#include <functional>
 
+#include "ir/addition_chain.h"
 #include "ir/assert.h"
 #include "ir/expr.h"
 #include "passes/rewrite.h"
@@ -10,17 +12,9 @@
 namespace imp {
 namespace {
 
-// The products of meaning::powi, in its order.
-Expr products(Expr a, std::uint32_t n) {
-  if (n == 1) return a;
-  const Expr half = products(a, n / 2);
-  const Expr square = half * half;
-  return n % 2 == 1 ? square * a : square;
-}
-
 Expr power(Expr a, double n) {
   if (n == 0) return one(a);
-  const Expr product = products(a, static_cast<std::uint32_t>(std::abs(n)));
+  const Expr product = positive_power(a, static_cast<std::uint32_t>(std::abs(n)), std::multiplies<Expr>());
   return n < 0 ? 1.0 / product : product;
 }
 

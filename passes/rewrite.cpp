@@ -40,6 +40,18 @@ std::vector<bool> live_nodes(const Program& program) {
   return live;
 }
 
+std::vector<Use> uses(const Program& program) {
+  std::vector<Use> result;
+  for_each_root(program, [&](Id id) {
+    if (id.valid()) result.push_back({id, {}});
+  });
+  const std::vector<bool> live = live_nodes(program);
+  for (std::uint32_t i = 0; i < live.size(); ++i)
+    if (live[i])
+      for (const Id arg : program.graph[Id{i}].args) result.push_back({arg, Id{i}});
+  return result;
+}
+
 Program rewrite(const Program& program, const Rule& rule, const Retype& retype) {
   Program result{program.name, {}, program.inputs, program.phases, program.outputs, program.callees};
   for (Input& input : result.inputs) input.type = retype(input.type);

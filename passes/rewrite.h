@@ -25,4 +25,10 @@ Program rewrite(const Program& program, const Rule& rule, const Retype& retype);
 // For each node whether an output, a phase or an input needs it.
 std::vector<bool> live_nodes(const Program& program);
 
+// One operand of a live node; or, without a user, what an output, a phase or an input holds.
+struct Use {
+  Id used, user;
+};
+std::vector<Use> uses(const Program& program);
+
 }  // namespace imp

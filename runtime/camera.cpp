@@ -34,11 +34,13 @@ CameraInputs camera_inputs(Program& program) {
 }
 
 PixelRay perspective_ray(const CameraInputs& camera, Expr i, Expr j) {
-  return {camera.eye, normalized(offset(camera, i, j))};
+  const Vector way = offset(camera, i, j);
+  const Expr length = sqrt(dot(way, way));
+  return {camera.eye, {way[0] / length, way[1] / length, way[2] / length}, length};
 }
 
 PixelRay orthographic_ray(const CameraInputs& camera, Expr i, Expr j) {
-  return {sum(camera.eye, offset(camera, i, j)), camera.forward};
+  return {sum(camera.eye, offset(camera, i, j)), camera.forward, one(i)};
 }
 
 // Slabs; a ray parallel to one is inside it for ever or never.

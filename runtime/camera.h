@@ -18,6 +18,7 @@ Vector normalized(const Vector& a);
 
 struct PixelRay {
   Vector origin, direction;  // direction of length 1
+  Expr length;               // the way to depth 1, as depth is measured along the camera's axis
 };
 
 // The numbers of a camera for one frame: uniforms of the kernel. To a pixel (i, j), counted from the

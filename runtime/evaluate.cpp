@@ -1,11 +1,13 @@
 #include "runtime/evaluate.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "passes/differentiate.h"
-#include "passes/extend/interval.h"
+#include "passes/extend/forms.h"
 #include "passes/inline.h"
 #include "passes/precision.h"
+#include "passes/surface_passes.h"
 #include "runtime/camera.h"
 #include "runtime/numbers.h"
 #include "runtime/search/segment.h"
@@ -35,32 +37,51 @@ Program with_ray_inputs(Program program) {
   return program;
 }
 
+std::optional<Program> value(const Program& f, Diagnostics& /*diagnostics*/) { return f; }
+
+// In the order of Evaluation.
+struct Row {
+  std::string_view name;
+  std::optional<Program> (*derive)(const Program& f, Diagnostics& diagnostics);  // of points
+  Form* form;                                                                    // of boxes
+};
+
+constexpr Row evaluations[] = {
+    {"f", value, nullptr},
+    {"gradient", gradient, nullptr},
+    {"hessian", hessian, nullptr},
+    {"interval", nullptr, interval_form},
+    {"affine", nullptr, affine_form},
+    {"taylor", nullptr, taylor_form},
+    {"mean-value", nullptr, mean_value_form},
+};
+
+const Row& row(Evaluation evaluation) { return evaluations[static_cast<std::size_t>(evaluation)]; }
+
 }  // namespace
 
 std::optional<Evaluation> evaluation_named(std::string_view name) {
-  if (name == "f") return Evaluation::f;
-  if (name == "gradient") return Evaluation::gradient;
-  if (name == "hessian") return Evaluation::hessian;
-  if (name == "interval") return Evaluation::interval;
-  return std::nullopt;
+  const auto* it = std::ranges::find(evaluations, name, &Row::name);
+  if (it == std::end(evaluations)) return std::nullopt;
+  return static_cast<Evaluation>(it - std::begin(evaluations));
 }
+
+bool over_boxes(Evaluation evaluation) { return row(evaluation).form != nullptr; }
 
 std::optional<Program> evaluation_program(const Surface& surface, Evaluation evaluation, Type precision,
-                                          Diagnostics& diagnostics) {
-  std::optional<Program> program;
-  switch (evaluation) {
-    case Evaluation::f:        return at_points(surface.f, precision);
-    case Evaluation::gradient: program = gradient(surface.f, diagnostics); break;
-    case Evaluation::hessian:  program = hessian(surface.f, diagnostics); break;
-    case Evaluation::interval: return interval_extension(with_ray_inputs(surface.f), precision, diagnostics);
-  }
+                                          Diagnostics& diagnostics, const Inclusion* inclusion) {
+  const Row& chosen = row(evaluation);
+  const Program f = simplified(surface.f);
+  Form* const form = inclusion && evaluation == Evaluation::interval ? inclusion->enclose : chosen.form;
+  const auto program = form ? extension(f, *form, precision, diagnostics) : chosen.derive(f, diagnostics);
   if (!program) return std::nullopt;
-  return at_points(*program, precision);
+  return form ? with_ray_inputs(*program) : at_points(*program, precision);
 }
 
-std::optional<Program> cast_program(const Surface& surface, const Search& search, const SearchLimits& limits,
-                                    Type precision, Diagnostics& diagnostics) {
-  const auto gradient_of_f = gradient(surface.f, diagnostics);
+std::optional<Program> cast_program(const Surface& surface, const Search& search, const Inclusion& inclusion,
+                                    const SearchLimits& limits, Type precision, Diagnostics& diagnostics) {
+  const Program simple = simplified(surface.f);
+  const auto gradient_of_f = gradient(simple, diagnostics);
   if (!gradient_of_f) return std::nullopt;
 
   Program result{.name = surface.name};
@@ -71,29 +92,30 @@ std::optional<Program> cast_program(const Surface& surface, const Search& search
   const Vector d{input("dx"), input("dy"), input("dz")};
   const Expr tmin = input("tmin"), tmax = input("tmax");
   std::vector<Uniform> uniforms;
-  for (std::size_t i = 3; i < surface.f.inputs.size(); ++i)
-    uniforms.push_back(uniform(input(uniform_input(surface.f.inputs[i].name)), precision));
+  for (std::size_t i = 3; i < simple.inputs.size(); ++i)
+    uniforms.push_back(uniform(input(uniform_input(simple.inputs[i].name)), precision));
 
   const Segment segment = segment_of_ray(o, d, tmin, tmax, precision);
-  const auto f = ray_function(surface.f, segment, uniforms, std::nullopt, diagnostics);
+  const auto f = ray_function(simple, segment, uniforms, inclusion, std::nullopt, diagnostics);
   if (!f) return std::nullopt;
-  const Found found = search.build(result, *f, limits);
+  const auto found = search.build(result, *f, limits, diagnostics);
+  if (!found) return std::nullopt;
 
   std::vector<Expr> place;
-  for (std::size_t i = 0; i < 3; ++i) place.push_back(segment.origin[i] + found.s * segment.direction[i]);
+  for (std::size_t i = 0; i < 3; ++i) place.push_back(segment.origin[i] + found->s * segment.direction[i]);
   for (const Uniform& each : uniforms) place.push_back(each.value);
   const auto values = inline_program(in_precision(*gradient_of_f, precision), place);
   const Vector normal = normalized({values[1], values[2], values[3]});
 
   const Expr nothing = constant_like(tmin, std::numeric_limits<double>::quiet_NaN());
   const auto output = [&](const char* name, Expr value) { result.outputs.push_back({name, value.id}); };
-  const auto where_found = [&](Expr value) { return select(found.something, value, nothing); };
-  output("verdict", from(precision, found.verdict));
-  output("t", where_found(tmin + from(precision, found.s) * (tmax - tmin)));
+  const auto where_found = [&](Expr value) { return select(found->something, value, nothing); };
+  output("verdict", from(precision, found->verdict));
+  output("t", where_found(tmin + from(precision, found->s) * (tmax - tmin)));
   output("nx", where_found(from(precision, normal[0])));
   output("ny", where_found(from(precision, normal[1])));
   output("nz", where_found(from(precision, normal[2])));
-  output("steps", from(precision, found.steps));
+  output("steps", from(precision, found->steps));
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include "backends/llvm/compile.h"
 #include "ir/assert.h"
 #include "passes/round_to_nearest.h"
+#include "passes/surface_passes.h"
 
 namespace imp {
 namespace {
@@ -48,7 +49,12 @@ std::vector<Pass> passes_for(const KernelOptions& options) {
   return passes;
 }
 
-std::vector<Pass> all_passes() { return passes_for({.outward = false}); }
+std::vector<Pass> all_passes() {
+  std::vector<Pass> passes(surface_passes().begin(), surface_passes().end());
+  const auto of_kernels = passes_for({.outward = false});
+  passes.insert(passes.end(), of_kernels.begin(), of_kernels.end());
+  return passes;
+}
 
 Program lower(Program program, const KernelOptions& options, PassTrace* trace) {
   return run_passes(std::move(program), passes_for(options), trace);

@@ -26,7 +26,7 @@ struct Timings {
 // What `lower` runs, in order.
 std::vector<Pass> passes_for(const KernelOptions& options);
 
-// What it may run, whatever the options.
+// What there is: those of formulas, and those that `lower` may run.
 std::vector<Pass> all_passes();
 
 // The Program as a backend gets it.

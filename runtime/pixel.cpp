@@ -6,7 +6,10 @@
 #include "passes/differentiate.h"
 #include "passes/inline.h"
 #include "passes/precision.h"
+#include "passes/surface_passes.h"
+#include "runtime/beam.h"
 #include "runtime/camera.h"
+#include "runtime/search/parts/refine.h"
 #include "runtime/search/segment.h"
 #include "runtime/shade/phong.h"
 #include "runtime/view.h"
@@ -15,12 +18,13 @@ namespace imp {
 namespace {
 
 constexpr Material material{.front = {0.80, 0.52, 0.17}, .back = {0.16, 0.34, 0.62}};
-constexpr std::array background{1.0, 1.0, 1.0};
 constexpr std::array undecided_mark{1.0, 0.0, 0.8};
 
 // What a ray meets, with the normal there.
 struct Sight {
-  Found found;
+  Expr verdict, steps;
+  Truth something;
+  Expr t;         // the distance from the origin of the ray, f32
   Vector normal;  // of length 1, f32; along the ray where f has no gradient
 };
 
@@ -33,8 +37,12 @@ Vector to(Type type, const Vector& v) { return {to(type, v[0]), to(type, v[1]), 
 
 class Pixel {
  public:
-  Pixel(const Model& model, const RenderOptions& options, Diagnostics& diagnostics)
-      : model_(model), options_(options), diagnostics_(diagnostics), type_(options.kernel.precision) {}
+  Pixel(const Model& model, const RenderOptions& options, bool beams, Diagnostics& diagnostics)
+      : model_(model),
+        options_(options),
+        beams_(beams),
+        diagnostics_(diagnostics),
+        type_(options.kernel.precision) {}
 
   std::optional<Program> build() {
     const Expr i = input("x0", f32, Rate::cell) + input("column", f32, Rate::ray) + 0.5;
@@ -42,14 +50,13 @@ class Pixel {
     const CameraInputs camera = camera_inputs(program_);
     ray_ = is_orthographic(model_) ? orthographic_ray(camera, i, j) : perspective_ray(camera, i, j);
     clip_ = clip_to_domain();
-    segment_ = segment_of_numbers(to(type_, ray_.origin), to(type_, ray_.direction), to(type_, clip_.near),
-                                  to(type_, clip_.far));
     for (const std::string& name : uniform_names(model_))
       uniforms_.push_back(uniform(input(uniform_input(name), f64, Rate::frame), type_));
 
     std::optional<Sight> first;
-    for (const std::size_t index : chosen_surfaces()) {
-      const auto sight = look_at(model_.surfaces[index].f);
+    const auto drawn = drawn_surfaces(model_, options_);
+    for (std::size_t k = 0; k < drawn.size(); ++k) {
+      const auto sight = look_at(simplified(model_.surfaces[drawn[k]].f), k);
       if (!sight) return std::nullopt;
       first = first ? nearer(*first, *sight) : *sight;
     }
@@ -67,13 +74,6 @@ class Pixel {
             input(name + ".z", f32, Rate::frame)};
   }
 
-  std::vector<std::size_t> chosen_surfaces() const {
-    std::vector<std::size_t> chosen = options_.surfaces;
-    if (chosen.empty())
-      for (std::size_t i = 0; i < model_.surfaces.size(); ++i) chosen.push_back(i);
-    return chosen;
-  }
-
   Clip clip_to_domain() {
     if (has_sphere_domain(model_)) {
       const Vector center = vector_input("domain.center");
@@ -83,40 +83,81 @@ class Pixel {
     return clip_to_box(ray_, min, vector_input("domain.max"));
   }
 
-  std::optional<Sight> look_at(const Program& f) {
-    const auto along = ray_function(f, segment_, uniforms_, space_bounds(model_), diagnostics_);
+  // The piece of the ray on which a surface is searched, and whether a beam has found all there is to find
+  // but the place.
+  struct Piece {
+    Expr near, far;
+    Truth crosses;
+    Expr sign;  // at near, where it crosses
+  };
+
+  Piece piece_for(std::size_t drawn) {
+    const Piece all{clip_.near, clip_.far, truth_of(program_.graph, false), zero(clip_.near)};
+    if (!beams_) return all;
+    const Beam beam = beam_inputs(program_, drawn);
+    const auto distance = [&](Expr depth) { return ray_.length * depth; };
+    const Expr begin = distance(beam.near), end = distance(beam.end);
+    const Truth inside = clip_.near <= begin && end <= clip_.far;
+    const Truth crosses = beam.crosses && inside;
+    return {max(clip_.near, begin), select(crosses, end, min(clip_.far, distance(beam.far))), crosses,
+            beam.sign};
+  }
+
+  // The strategy is for those rays on which the beam has not found all.
+  std::optional<Found> find_behind_beam(RayFunction f, const Piece& piece, const Search& search) {
+    const Expr start = zero(f.like);
+    const Expr s = refine(program_, f, start, one(start), to(type_, piece.sign), piece.crosses);
+    f.exists = f.exists && !piece.crosses;
+    auto found = search.build(program_, f, options_.limits, diagnostics_);
+    if (!found) return std::nullopt;
+    found->verdict = select(piece.crosses, constant_like(start, verdict_hit), found->verdict);
+    found->something = found->something || piece.crosses;
+    found->s = select(piece.crosses, s, found->s);
+    return found;
+  }
+
+  std::optional<Sight> look_at(const Program& f, std::size_t drawn) {
+    const Piece piece = piece_for(drawn);
+    const Segment segment = segment_of_numbers(to(type_, ray_.origin), to(type_, ray_.direction),
+                                               to(type_, piece.near), to(type_, piece.far));
+    const Method method = choose_method(f, options_.wish, options_.kernel);
+    const auto along =
+        ray_function(f, segment, uniforms_, *method.inclusion, space_bounds(model_), diagnostics_);
     const auto slopes = gradient(f, diagnostics_);
     if (!along || !slopes) return std::nullopt;
-    const Search& search = options_.search ? *options_.search : searches().front();
-    const Found found = search.build(program_, *along, options_.limits);
+    const auto found = beams_ ? find_behind_beam(*along, piece, *method.search)
+                              : method.search->build(program_, *along, options_.limits, diagnostics_);
+    if (!found) return std::nullopt;
 
     std::vector<Expr> place;
-    for (std::size_t i = 0; i < 3; ++i) place.push_back(segment_.origin[i] + found.s * segment_.direction[i]);
+    for (std::size_t i = 0; i < 3; ++i) place.push_back(segment.origin[i] + found->s * segment.direction[i]);
     for (const Uniform& each : uniforms_) place.push_back(each.value);
     const auto values = inline_program(in_precision(*slopes, type_), place);
     Vector normal = to(f32, normalized({values[1], values[2], values[3]}));
     const Truth regular = dot(normal, normal) > 0.5;
     for (std::size_t i = 0; i < 3; ++i) normal[i] = select(regular, normal[i], -ray_.direction[i]);
-    return Sight{found, normal};
+    return Sight{to(f32, found->verdict), to(f32, found->steps), found->something,
+                 piece.near + to(f32, found->s) * (piece.far - piece.near), normal};
   }
 
   // The first of two. A hit is certified if the other surface is certain to lie behind it.
   Sight nearer(const Sight& a, const Sight& b) const {
-    const auto place = [](const Found& f) {
-      return select(f.something, f.s, constant_like(f.s, std::numeric_limits<double>::infinity()));
+    const auto place = [](const Sight& sight) {
+      return select(sight.something, sight.t,
+                    constant_like(sight.t, std::numeric_limits<double>::infinity()));
     };
-    const Truth a_first = place(a.found) <= place(b.found);
+    const Truth a_first = place(a) <= place(b);
     const auto pick = [&](Expr p, Expr q) { return select(a_first, p, q); };
-    const Expr first = pick(a.found.verdict, b.found.verdict), other = pick(b.found.verdict, a.found.verdict);
-    const Expr gap = abs(place(a.found) - place(b.found));
-    const double run = 2 * longest_run(epsilon_of(options_.limits, type_));
-    const Truth other_seen = select(a_first, b.found.something, a.found.something);  // not given up before it
+    const Expr first = pick(a.verdict, b.verdict), other = pick(b.verdict, a.verdict);
+    const Expr gap = abs(place(a) - place(b));
+    const Truth other_seen = select(a_first, b.something, a.something);  // not given up before it
+    const Expr run = 2 * longest_run(epsilon_of(options_.limits, type_)) * (clip_.far - clip_.near);
     const Truth certain = other >= verdict_miss || (other_seen && gap > run);
     Sight result;
-    result.found.verdict = select(certain, first, constant_like(first, verdict_undecided));
-    result.found.something = a.found.something || b.found.something;
-    result.found.s = pick(a.found.s, b.found.s);
-    result.found.steps = a.found.steps + b.found.steps;
+    result.verdict = select(certain, first, constant_like(first, verdict_undecided));
+    result.something = a.something || b.something;
+    result.t = pick(a.t, b.t);
+    result.steps = a.steps + b.steps;
     for (std::size_t i = 0; i < 3; ++i) result.normal[i] = pick(a.normal[i], b.normal[i]);
     return result;
   }
@@ -125,7 +166,7 @@ class Pixel {
     std::vector<LightInputs> lights;
     for (const bool directional : directional_lights(model_))
       lights.push_back(light_inputs(program_, lights.size(), directional));
-    const Expr verdict = to(f32, sight.found.verdict);
+    const Expr verdict = sight.verdict;
     const Color lit = phong(material, lights, place, sight.normal, ray_.direction);
     const Truth hit = verdict > 0, undecided = verdict < 0;
 
@@ -133,7 +174,7 @@ class Pixel {
     for (std::size_t i = 0; i < 3; ++i) {
       const Expr nothing = constant_like(verdict, background[i]);
       Expr doubtful = nothing;
-      if (options_.thin == Thin::draw) doubtful = select(sight.found.something, lit[i], nothing);
+      if (options_.thin == Thin::draw) doubtful = select(sight.something, lit[i], nothing);
       if (options_.thin == Thin::mark) doubtful = constant_like(verdict, undecided_mark[i]);
       color[i] = select(hit, lit[i], select(undecided, doubtful, nothing));
     }
@@ -141,16 +182,15 @@ class Pixel {
   }
 
   void output_channels(const Sight& sight) {
-    const Expr s = to(f32, sight.found.s);
-    const Expr t = clip_.near + s * (clip_.far - clip_.near);
+    const Expr t = sight.t;
     const Color color = shade(sight, sum(ray_.origin, scaled(ray_.direction, t)));
     const auto output = [&](const char* name, Expr value) { program_.outputs.push_back({name, value.id}); };
     output("red", color[0]);
     output("green", color[1]);
     output("blue", color[2]);
-    output("verdict", to(f32, sight.found.verdict));
+    output("verdict", sight.verdict);
     const auto where_found = [&](Expr value, double otherwise) {
-      return select(sight.found.something, value, constant_like(value, otherwise));
+      return select(sight.something, value, constant_like(value, otherwise));
     };
     if (options_.depth) output("depth", where_found(t, std::numeric_limits<double>::infinity()));
     if (options_.normal) {
@@ -158,7 +198,7 @@ class Pixel {
       output("normal.y", where_found(sight.normal[1], 0));
       output("normal.z", where_found(sight.normal[2], 0));
     }
-    if (options_.steps) output("steps", to(f32, sight.found.steps));
+    if (options_.steps) output("steps", sight.steps);
     if (!options_.ray) return;
     constexpr const char* names[] = {"origin.x",    "origin.y",    "origin.z",
                                      "direction.x", "direction.y", "direction.z"};
@@ -170,20 +210,27 @@ class Pixel {
 
   const Model& model_;
   const RenderOptions& options_;
+  bool beams_;
   Diagnostics& diagnostics_;
   Type type_;
   Program program_{.name = "pixel"};
   PixelRay ray_;
   Clip clip_;
-  Segment segment_;
   std::vector<Uniform> uniforms_;
 };
 
 }  // namespace
 
+std::vector<std::size_t> drawn_surfaces(const Model& model, const RenderOptions& options) {
+  std::vector<std::size_t> drawn = options.surfaces;
+  if (drawn.empty())
+    for (std::size_t i = 0; i < model.surfaces.size(); ++i) drawn.push_back(i);
+  return drawn;
+}
+
 std::optional<Program> pixel_program(const Model& model, const RenderOptions& options,
-                                     Diagnostics& diagnostics) {
-  return Pixel(model, options, diagnostics).build();
+                                     Diagnostics& diagnostics, bool beams) {
+  return Pixel(model, options, beams, diagnostics).build();
 }
 
 }  // namespace imp

@@ -8,11 +8,17 @@
 
 namespace imp {
 
+inline constexpr std::array background{1.0, 1.0, 1.0};  // the colour of a miss, linear
+
 // The inputs of a stage (ir/stage.h), the frame inputs of runtime/view.h and the uniforms (f64);
 // outputs, f32: red, green, blue (linear), verdict, and as asked depth, normal.x, normal.y,
 // normal.z, steps; or, for `ray`, origin.x, …, direction.x, …, near, far: the ray, and where it
 // enters and leaves the domain.
+// `beams`: it is the last stage behind those of runtime/beam.h.
 std::optional<Program> pixel_program(const Model& model, const RenderOptions& options,
-                                     Diagnostics& diagnostics);
+                                     Diagnostics& diagnostics, bool beams = false);
+
+// Of model.surfaces those that are drawn, by index.
+std::vector<std::size_t> drawn_surfaces(const Model& model, const RenderOptions& options);
 
 }  // namespace imp

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <map>
 
+#include "runtime/beam.h"
 #include "runtime/pixel.h"
 #include "runtime/stages.h"
 #include "runtime/view.h"
@@ -17,15 +19,37 @@ constexpr std::uint32_t tile = 64;
 struct Target {
   std::vector<float>* channel;
   std::size_t stride, offset;
+  float background;  // where nothing is
 };
 
 std::map<std::string, Target> targets(Picture& picture) {
-  return {{"red", {&picture.color, 3, 0}},       {"green", {&picture.color, 3, 1}},
-          {"blue", {&picture.color, 3, 2}},      {"verdict", {&picture.verdict, 1, 0}},
-          {"depth", {&picture.depth, 1, 0}},     {"normal.x", {&picture.normal, 3, 0}},
-          {"normal.y", {&picture.normal, 3, 1}}, {"normal.z", {&picture.normal, 3, 2}},
-          {"steps", {&picture.steps, 1, 0}}};
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  const auto color = [&](std::size_t i) {
+    return Target{&picture.color, 3, i, static_cast<float>(background[i])};
+  };
+  return {{"red", color(0)},
+          {"green", color(1)},
+          {"blue", color(2)},
+          {"verdict", {&picture.verdict, 1, 0, static_cast<float>(verdict_miss)}},
+          {"depth", {&picture.depth, 1, 0, infinity}},
+          {"normal.x", {&picture.normal, 3, 0, 0}},
+          {"normal.y", {&picture.normal, 3, 1, 0}},
+          {"normal.z", {&picture.normal, 3, 2, 0}},
+          {"steps", {&picture.steps, 1, 0, 0}}};
 }
+
+// The pixels of which nothing is certified.
+struct Undecided {
+  std::vector<std::uint32_t> columns, rows;
+
+  explicit Undecided(const Picture& picture) {
+    for (std::size_t i = 0; i < picture.verdict.size(); ++i)
+      if (picture.verdict[i] == static_cast<float>(verdict_undecided)) {
+        columns.push_back(static_cast<std::uint32_t>(i % picture.width));
+        rows.push_back(static_cast<std::uint32_t>(i / picture.width));
+      }
+  }
+};
 
 }  // namespace
 
@@ -33,26 +57,57 @@ std::size_t Picture::count(double which) const {
   return static_cast<std::size_t>(std::ranges::count(verdict, static_cast<float>(which)));
 }
 
-Renderer::Renderer(const Model& model, RenderOptions options, std::shared_ptr<const Kernel> kernel)
-    : model_(&model), options_(std::move(options)), kernel_(std::move(kernel)) {
+Renderer::Renderer(const Model& model, RenderOptions options, std::vector<RunnableStage> stages)
+    : model_(&model), options_(std::move(options)), stages_(std::move(stages)) {
   if (!options_.workers) options_.workers = std::make_shared<Workers>();
+  if (std::ranges::any_of(methods(), &Method::again_in_double)) in_double_ = std::make_shared<InDouble>();
+}
+
+std::vector<Method> Renderer::methods() const {
+  std::vector<Method> result;
+  for (const std::size_t index : drawn_surfaces(*model_, options_))
+    result.push_back(choose_method(model_->surfaces[index].f, options_.wish, options_.kernel));
+  return result;
+}
+
+const Kernel* Renderer::in_double() const {
+  if (!in_double_) return nullptr;
+  std::call_once(in_double_->made, [&] {
+    RenderOptions options = options_;
+    options.kernel.precision = f64;
+    Diagnostics unused;
+    auto pixel = pixel_program(*model_, options, unused);
+    if (!pixel) return;
+    auto kernel = make_kernel(*std::move(pixel), options.kernel);
+    if (kernel) in_double_->kernel = *std::move(kernel);
+  });
+  return in_double_->kernel.get();
 }
 
 std::optional<Renderer> Renderer::make(const Model& model, const RenderOptions& options,
                                        Diagnostics& diagnostics, Timings* timings) {
   const auto start = std::chrono::steady_clock::now();
-  auto program = pixel_program(model, options, diagnostics);
-  if (!program) return std::nullopt;
+  auto pipeline = options.tiles ? beam_stages(model, options, diagnostics) : Pipeline{};
+  if (!pipeline) return std::nullopt;
+  const bool beams = !pipeline->empty();
+  auto pixel = pixel_program(model, options, diagnostics, beams);
+  if (!pixel) return std::nullopt;
+  const std::uint32_t side = beams ? beam_cell : tile;
+  pipeline->push_back({{side, side, 1}, *std::move(pixel)});
   if (timings)
     timings->entries.push_back(
         {"compose",
          std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count()});
-  auto kernel = make_kernel(*std::move(program), options.kernel, timings);
-  if (!kernel) {
-    diagnostics.error(kernel.error().span, kernel.error().message);
-    return std::nullopt;
+  std::vector<RunnableStage> stages;
+  for (Stage& stage : *pipeline) {
+    auto kernel = make_kernel(std::move(stage.program), options.kernel, timings);
+    if (!kernel) {
+      diagnostics.error(kernel.error().span, kernel.error().message);
+      return std::nullopt;
+    }
+    stages.push_back({stage.cells, *std::move(kernel)});
   }
-  return Renderer(model, options, *std::move(kernel));
+  return Renderer(model, options, std::move(stages));
 }
 
 Picture Renderer::frame(const UniformValues& uniforms, std::stop_token stop,
@@ -60,7 +115,7 @@ Picture Renderer::frame(const UniformValues& uniforms, std::stop_token stop,
   const FrameInputs inputs(*model_, uniforms, options_.width, options_.height);
   Picture picture{options_.width, options_.height, {}, {}, {}, {}, {}};
   std::vector<Target> channels;
-  for (const Output& output : kernel_->program().outputs) {
+  for (const Output& output : program().outputs) {
     channels.push_back(targets(picture).at(output.name));
     channels.back().channel->resize(channels.back().stride * picture.width * picture.height);
   }
@@ -74,9 +129,20 @@ Picture Renderer::frame(const UniformValues& uniforms, std::stop_token stop,
         (*channels[k].channel)[channels[k].stride * place + channels[k].offset] = pixels.outputs[k][i];
     }
   };
-  const RunnableStage stage{{tile, tile, 1}, kernel_};
-  run_stages(std::span(&stage, 1), {picture.width, picture.height}, std::cref(inputs), sink,
-             *options_.workers, std::move(stop), progress);
+  // Where all is excluded.
+  const NotNeededSink not_needed = [&](std::size_t x, std::size_t y, std::size_t width, std::size_t height) {
+    for (const Target& target : channels)
+      for (std::size_t row = y; row < y + height; ++row)
+        for (std::size_t place = row * picture.width + x; place < row * picture.width + x + width; ++place)
+          (*target.channel)[target.stride * place + target.offset] = target.background;
+  };
+  run_stages(stages_, {picture.width, picture.height}, std::cref(inputs), sink, not_needed, *options_.workers,
+             stop, progress);
+  const Undecided open(picture);
+  if (open.columns.empty() || stop.stop_requested()) return picture;
+  if (in_double())
+    run_pixels({{1, 1, 1}, in_double_->kernel}, open.columns, open.rows, std::cref(inputs), sink,
+               *options_.workers, stop);
   return picture;
 }
 

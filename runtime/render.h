@@ -4,14 +4,17 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <stop_token>
 #include <vector>
 
 #include "frontend/model.h"
 #include "runtime/kernel.h"
+#include "runtime/method.h"
 #include "runtime/numbers.h"
 #include "runtime/search/search.h"
+#include "runtime/stages.h"
 #include "runtime/workers.h"
 
 namespace imp {
@@ -21,9 +24,10 @@ enum class Thin : std::uint8_t { draw, hide, mark };  // how undecided pixels ar
 struct RenderOptions {
   std::size_t width = 1024, height = 1024;
   std::vector<std::size_t> surfaces;  // indices into Model::surfaces; empty: all
-  const Search* search = nullptr;     // null: the default one
+  Wish wish;
   SearchLimits limits;
   Thin thin = Thin::draw;
+  bool tiles = true;  // whether beams are cast before rays (runtime/beam.h)
   bool depth = false, normal = false, steps = false, verdict = false;  // further channels
   bool ray = false;                  // and what a picture has no place for: see pixel_program
   std::shared_ptr<Workers> workers;  // null: a team of one thread a core
@@ -55,14 +59,26 @@ class Renderer {
   Picture frame(const UniformValues& uniforms, std::stop_token stop = {},
                 const std::function<void(double)>& progress = {}) const;
 
-  const Program& program() const { return kernel_->program(); }
+  // How each surface that is drawn is searched.
+  std::vector<Method> methods() const;
+
+  // Of a pixel.
+  const Program& program() const { return stages_.back().kernel->program(); }
 
  private:
-  Renderer(const Model& model, RenderOptions options, std::shared_ptr<const Kernel> kernel);
+  Renderer(const Model& model, RenderOptions options, std::vector<RunnableStage> stages);
+
+  // The same pixels in double, for those that floats leave undecided. Made when it is first needed.
+  struct InDouble {
+    std::once_flag made;
+    std::shared_ptr<const Kernel> kernel;  // null: none is to be had
+  };
+  const Kernel* in_double() const;
 
   const Model* model_;
   RenderOptions options_;
-  std::shared_ptr<const Kernel> kernel_;
+  std::vector<RunnableStage> stages_;
+  std::shared_ptr<InDouble> in_double_;  // null: not wanted
 };
 
 }  // namespace imp

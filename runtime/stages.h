@@ -31,13 +31,22 @@ struct PixelRows {
 };
 using PixelSink = std::function<void(const PixelRows&)>;
 
+// Hears, from many threads, of the pixels [x, x + width) × [y, y + height) that no stage needed.
+using NotNeededSink =
+    std::function<void(std::size_t x, std::size_t y, std::size_t width, std::size_t height)>;
+
 struct PictureSize {
   std::size_t width, height;
 };
 
 // Outputs of all stages are f32.
 void run_stages(std::span<const RunnableStage> stages, PictureSize size, const FrameValue& frame_value,
-                const PixelSink& sink, Workers& workers, std::stop_token stop = {},
-                const std::function<void(double)>& progress = {});
+                const PixelSink& sink, const NotNeededSink& not_needed, Workers& workers,
+                std::stop_token stop = {}, const std::function<void(double)>& progress = {});
+
+// Some pixels of a picture by a Program for pixels, all by themselves.
+void run_pixels(const RunnableStage& stage, std::span<const std::uint32_t> columns,
+                std::span<const std::uint32_t> rows, const FrameValue& frame_value, const PixelSink& sink,
+                Workers& workers, std::stop_token stop = {});
 
 }  // namespace imp

@@ -1,5 +1,6 @@
 #include "runtime/view.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
 #include <glm/gtc/constants.hpp>
@@ -107,6 +108,42 @@ void set_domain(FrameValues& values, const Model& model, const Numbers& numbers)
   }
 }
 
+// Where the domain lies, as depths along the axis of the camera: none of it is nearer or farther.
+Range depths(const Model& model, const Numbers& numbers, const Frame& frame) {
+  const auto depth = [&](const dvec3& place) { return glm::dot(place - frame.eye, frame.forward); };
+  if (has_sphere_domain(model)) {
+    const auto& sphere = std::get<Sphere>(*model.domain);
+    const double middle = depth(vector(numbers(sphere.center))), radius = numbers(sphere.radius);
+    return {middle - radius, middle + radius};
+  }
+  dvec3 lo(-default_domain), hi(default_domain);
+  if (model.domain) {
+    lo = vector(numbers(std::get<Box>(*model.domain).min));
+    hi = vector(numbers(std::get<Box>(*model.domain).max));
+  }
+  Range range{everything.hi, everything.lo};
+  for (int corner = 0; corner < 8; ++corner) {
+    const double d = depth({corner & 1 ? hi.x : lo.x, corner & 2 ? hi.y : lo.y, corner & 4 ? hi.z : lo.z});
+    range = {std::min(range.lo, d), std::max(range.hi, d)};
+  }
+  return range;
+}
+
+// What the beams need (runtime/beam.h): the depths of the domain, and how far the rays that a kernel
+// computes in floats may be from the exact ones. A direction takes a dozen roundings and a place a dozen
+// more, each off by at most 2^-23 of the largest number on the way: 2^-18 is more than all of them.
+void set_beams(FrameValues& values, const Model& model, const Numbers& numbers, const Frame& frame,
+               double longest_way) {
+  constexpr double share = 0x1p-18;
+  const Range range = depths(model, numbers, frame);
+  const double place =
+      glm::length(frame.eye) + (1 + std::max(std::abs(range.lo), std::abs(range.hi))) * longest_way;
+  values.set("depth.near", std::max(range.lo - share * place, 0.0));
+  values.set("depth.far", range.hi + share * place);
+  values.set("pad.place", share * place);
+  values.set("pad.way", share * longest_way);
+}
+
 }  // namespace
 
 bool check_view(const Model& model, const UniformValues& uniforms, Diagnostics& diagnostics) {
@@ -193,6 +230,9 @@ std::map<std::string, float> frame_values(const Model& model, const Numbers& num
   values.set("down", down);
   set_domain(values, model, numbers);
   set_lights(values, model, numbers, frame);
+  set_beams(values, model, numbers, frame,
+            1 + glm::length(corner) + static_cast<double>(width) * glm::length(right) +
+                static_cast<double>(height) * glm::length(down));
   return values.values;
 }
 

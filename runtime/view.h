@@ -32,7 +32,8 @@ bool check_view(const Model& model, const UniformValues& uniforms, Diagnostics& 
 std::optional<SpaceBounds> space_bounds(const Model& model);
 
 // The value of each frame input of the pixel's Program by name: eye.x, forward.x, …, domain.min.x
-// or domain.center.x and domain.radius, light0.x, light0.r, ….
+// or domain.center.x and domain.radius, light0.x, light0.r, …, and what beams need: depth.near, depth.far,
+// pad.place, pad.way (runtime/beam.h).
 std::map<std::string, float> frame_values(const Model& model, const Numbers& numbers, std::size_t width,
                                           std::size_t height);
 

@@ -30,8 +30,12 @@ struct Cast {
     job.rows = Rows::rays;
     job.columns = {"verdict", "t", "nx", "ny", "nz", "steps"};
     job.write = write;
-    job.program = [this](const Surface& surface, Diagnostics& diagnostics) {
-      return cast_program(surface, *options.search, options.limits, options.kernel.precision, diagnostics);
+    job.method = [this](const Surface& surface) {
+      return choose_method(surface.f, options.wish, options.kernel);
+    };
+    job.program = [this](const Surface& surface, Type precision, Diagnostics& diagnostics) {
+      const Method method = job.method(surface);
+      return cast_program(surface, *method.search, *method.inclusion, options.limits, precision, diagnostics);
     };
     return run_table(job, options);
   }

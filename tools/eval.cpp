@@ -12,9 +12,8 @@ std::vector<std::string_view> columns_of(Evaluation evaluation) {
     case Evaluation::f:        return {"f"};
     case Evaluation::gradient: return {"f", "fx", "fy", "fz"};
     case Evaluation::hessian:  return {"f", "fx", "fy", "fz", "fxx", "fxy", "fxz", "fyy", "fyz", "fzz"};
-    case Evaluation::interval: return {"lo", "hi", "defined"};
+    default:                   return {"lo", "hi", "defined"};
   }
-  return {};
 }
 
 void write(std::string& text, std::span<const Column> outputs, std::size_t row) {
@@ -30,11 +29,11 @@ struct Eval {
   TableJob job;
 
   Exit run() {
-    job.rows = evaluation == Evaluation::interval ? Rows::boxes : Rows::points;
+    job.rows = over_boxes(evaluation) ? Rows::boxes : Rows::points;
     job.columns = columns_of(evaluation);
     job.write = write;
-    job.program = [this](const Surface& surface, Diagnostics& diagnostics) {
-      return evaluation_program(surface, evaluation, options.kernel.precision, diagnostics);
+    job.program = [this](const Surface& surface, Type precision, Diagnostics& diagnostics) {
+      return evaluation_program(surface, evaluation, precision, diagnostics, options.named_inclusion);
     };
     return run_table(job, options);
   }

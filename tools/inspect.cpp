@@ -8,6 +8,7 @@
 #include "backends/glsl/emit.h"
 #include "backends/llvm/compile.h"
 #include "ir/text.h"
+#include "passes/surface_passes.h"
 #include "runtime/evaluate.h"
 #include "runtime/pixel.h"
 #include "tools/input.h"
@@ -103,16 +104,32 @@ struct Inspect {
     const auto surface = choose_surface(model, options.surface, diagnostics);
     if (!surface) return std::nullopt;
     if (program == "pixel") return pixel(model, {*surface}, diagnostics);
-    if (program == "cast")
-      return cast_program(model.surfaces[*surface], *options.search, options.limits, precision, diagnostics);
-    return evaluation_program(model.surfaces[*surface], *evaluation_named(program), precision, diagnostics);
+    if (program == "cast") {
+      const Method method = choose_method(model.surfaces[*surface].f, options.wish, options.kernel);
+      return cast_program(model.surfaces[*surface], *method.search, *method.inclusion, options.limits,
+                          precision, diagnostics);
+    }
+    return evaluation_program(model.surfaces[*surface], *evaluation_named(program), precision, diagnostics,
+                              options.named_inclusion);
+  }
+
+  // How rays are searched, where they are: a line for each surface.
+  std::string methods_text(const Model& model) const {
+    if (program != "cast" && program != "pixel") return "";
+    std::string text = "\n";
+    for (const Surface& surface : model.surfaces) {
+      if (!options.surface.empty() && surface.name != options.surface) continue;
+      const std::string of = model.surfaces.size() == 1 ? "" : surface.name + ": ";
+      text += fmt::format("# {}{}\n", of, to_text(choose_method(surface.f, options.wish, options.kernel)));
+    }
+    return text;
   }
 
   std::optional<Program> pixel(const Model& model, std::vector<std::size_t> surfaces,
                                Diagnostics& diagnostics) const {
     RenderOptions picture;
     picture.surfaces = std::move(surfaces);
-    picture.search = options.search;
+    picture.wish = options.wish;
     picture.limits = options.limits;
     picture.kernel = options.kernel;
     return pixel_program(model, picture, diagnostics);
@@ -124,21 +141,26 @@ struct Inspect {
       timings.entries.push_back({stage, watch.milliseconds()});
     };
     const Stopwatch parsing;
-    const auto model = read_model(file, diagnostics);
+    auto model = read_model(file, diagnostics);
     if (!model) return false;
     time("parse", parsing);
     if (!uniform_values(*model, options.overrides, options.time, diagnostics)) return false;
-
-    const Stopwatch building;
-    auto built = build(*model, diagnostics);
-    if (!built) return false;
-    time("build program", building);
 
     Output output;
     std::ostringstream between;
     PassTrace trace{
         .times = {}, .text = passes || !print_after.empty() ? &between : nullptr, .print_after = print_after};
-    if (passes && print_after.empty()) output.text = "== before the passes\n" + to_text(*built);
+    const bool all = passes && print_after.empty();
+    const Stopwatch building;
+    for (Surface& surface : model->surfaces) {
+      if (!options.surface.empty() && surface.name != options.surface) continue;
+      if (all) between << "== as written\n" << to_text(surface.f);
+      surface.f = simplified(surface.f, &trace);
+    }
+    auto built = build(*model, diagnostics);
+    if (!built) return false;
+    time("build program", building);
+    if (all) between << "== before the passes of kernels\n" << to_text(*built);
     const Stopwatch lowering;
     const Program lowered = lower(*std::move(built), options.kernel, &trace);
     time("passes", lowering);
@@ -150,7 +172,7 @@ struct Inspect {
       if (!text) return diagnostics.error(text.error().span, text.error().message), false;
       output.text += *text;
     }
-    if (!emission) output.text += counts_text(lowered);
+    if (!emission) output.text += methods_text(*model) + counts_text(lowered);
     if (passes) output.text += times_text(trace);
     if (!output.close(diagnostics)) return false;
     time("write", writing);

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 Table searches_table() {
-  Table table;
+  Table table{{"auto", "what fits the surface"}};
   for (const Search& search : searches())
     table.push_back({std::string(search.name), std::string(search.summary)});
   return table;
@@ -27,8 +27,8 @@ Table searches_table() {
 
 Table inclusions_table() {
   Table table;
-  for (const Choice& choice : inclusions())
-    if (choice.there) table.push_back({std::string(choice.name), std::string(choice.summary)});
+  for (const Inclusion& inclusion : inclusions())
+    table.push_back({std::string(inclusion.name), std::string(inclusion.summary)});
   return table;
 }
 

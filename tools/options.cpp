@@ -23,22 +23,9 @@ constexpr Choice roundings[] = {
     {"outward", "enclosures hold in spite of rounding"},
     {"nearest", "as in the papers: faster, and not sound"},
 };
-constexpr Choice inclusion_choices[] = {
-    {"auto", "what is best for the surface; natural intervals as yet"},
-    {"ia", "the natural interval extension"},
-    {"af1", "the reduced affine form", false},
-    {"taylor", "the Taylor form", false},
-    {"mean-value", "the mean value form", false},
-};
-
 constexpr Choice evaluation_choices[] = {
-    {"f", ""},
-    {"gradient", ""},
-    {"hessian", ""},
-    {"interval", ""},
-    {"affine", "", false},
-    {"taylor", "", false},
-    {"mean-value", "", false},
+    {"f", ""},      {"gradient", ""}, {"hessian", ""},    {"interval", ""},
+    {"affine", ""}, {"taylor", ""},   {"mean-value", ""},
 };
 
 std::vector<Choice> target_choices(const std::vector<CpuTarget>& targets) {
@@ -48,11 +35,15 @@ std::vector<Choice> target_choices(const std::vector<CpuTarget>& targets) {
   return choices;
 }
 
-// The strategies that there are, and those to come.
 std::vector<Choice> search_choices() {
-  std::vector<Choice> choices;
+  std::vector<Choice> choices{{"auto", "what fits the surface"}};
   for (const Search& search : searches()) choices.push_back({search.name, search.summary});
-  if (!search_named("auto")) choices.push_back({"auto", "what is best for the surface", false});
+  return choices;
+}
+
+std::vector<Choice> inclusion_choices() {
+  std::vector<Choice> choices;
+  for (const Inclusion& inclusion : inclusions()) choices.push_back({inclusion.name, inclusion.summary});
   return choices;
 }
 
@@ -158,7 +149,7 @@ void add_options(CLI::App& verb, Options& options) {
   static const std::vector<CpuTarget> targets = cpu_targets();
   static const std::vector<Choice> target_words = target_choices(targets);
   static const std::vector<Choice> search_words = search_choices();
-  options.search = searches().data();
+  static const std::vector<Choice> inclusion_words = inclusion_choices();
 
   add_value(verb, "--surface", "NAME", "the surface, where the file has several",
             [&](const std::string& name) { options.surface = name; });
@@ -170,10 +161,13 @@ void add_options(CLI::App& verb, Options& options) {
              [&](std::size_t i) { options.kernel.target = targets[i].name; });
   add_choice(verb, "--rounding", roundings, "of enclosures (outward)",
              [&](std::size_t i) { options.kernel.outward = i == 0; });
-  add_choice(verb, "--search", search_words, "the strategy along a ray",
-             [&](std::size_t i) { options.search = search_named(search_words[i].name); });
-  add_choice(verb, "--inclusion", inclusion_choices, "how f is enclosed (auto)",
-             [&](std::size_t) { options.inclusion = "ia"; });  // auto is ia, as yet
+  add_choice(verb, "--search", search_words, "the strategy along a ray (auto)",
+             [&](std::size_t i) { options.wish.search = search_named(search_words[i].name); });
+  add_choice(verb, "--inclusion", inclusion_words, "how f is enclosed (auto; by --program=interval: ia)",
+             [&](std::size_t i) {
+               options.named_inclusion = &inclusions()[i];
+               options.wish.inclusion = inclusion_words[i].name == "auto" ? nullptr : &inclusions()[i];
+             });
   add_value(verb, "--epsilon", "E", "a piece of this share of a ray's segment is no longer split, as 2^-11",
             [&](const std::string& text) { options.limits.epsilon = read_epsilon(text); });
   add_value(verb, "--time", "V", "the time",
@@ -194,7 +188,6 @@ void add_options(CLI::App& verb, Options& options) {
       ->transform(CLI::Validator(check_stats, ""));
 }
 
-std::span<const Choice> inclusions() { return inclusion_choices; }
 std::span<const Choice> evaluations() { return evaluation_choices; }
 
 std::string_view backend_name(Backend backend) { return backends[static_cast<std::size_t>(backend)].name; }

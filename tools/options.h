@@ -10,6 +10,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "passes/extend/inclusion.h"
 #include "runtime/numbers.h"
 #include "runtime/options.h"
 #include "runtime/render.h"
@@ -47,8 +48,8 @@ void add_size(CLI::App& verb, RenderOptions& picture);
 // What every verb that evaluates takes.
 struct Options {
   KernelOptions kernel;
-  const Search* search = nullptr;
-  std::string_view inclusion = "ia";
+  Wish wish;
+  const Inclusion* named_inclusion = nullptr;  // by --inclusion, `auto` too; null: none was
   SearchLimits limits;
   std::vector<Override> overrides;
   std::optional<double> time;
@@ -58,8 +59,6 @@ struct Options {
 };
 
 void add_options(CLI::App& verb, Options& options);
-
-std::span<const Choice> inclusions();
 
 // The Programs that tables of points and boxes go through, as --program names them.
 std::span<const Choice> evaluations();

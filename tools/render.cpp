@@ -28,7 +28,7 @@ constexpr Choice thin_choices[] = {
     {"hide", "not at all"},
     {"mark", "in a colour of their own"},
 };
-constexpr Choice tile_choices[] = {{"on", "beams first", false}, {"off", "every ray by itself"}};
+constexpr Choice tile_choices[] = {{"on", "beams first"}, {"off", "every ray by itself"}};
 constexpr Choice channel_choices[] = {{"depth", ""}, {"normal", ""}, {"steps", ""}, {"verdict", ""}};
 
 // One line on a terminal, for what takes long.
@@ -130,7 +130,7 @@ struct Render {
     all.workers = std::make_shared<Workers>(threads);
     preload_image_module();
     all.kernel = options.kernel;
-    all.search = options.search;
+    all.wish = options.wish;
     all.limits = options.limits;
     all.steps = picture.steps || !options.stats.empty();
     const auto renderer = Renderer::make(*model, all, diagnostics, &timings);
@@ -164,7 +164,7 @@ struct Render {
     if (repeat > 0)
       fmt::print(stderr, "{} frames: {:.2f} ms at least, {:.2f} in the median, {:.2f} at most\n",
                  times.size(), times.front(), median, times.back());
-    Report report{"pixels", result.width * result.height, median, {}, {}};
+    Report report{"pixels", result.width * result.height, median, {}, {}, renderer->methods()};
     report.verdicts = {result.count(verdict_hit), result.count(verdict_miss),
                        result.count(verdict_undecided)};
     if (all.steps) report.steps = steps_of(std::span<const float>(result.steps));
@@ -184,8 +184,8 @@ Action add_render(CLI::App& verb) {
   add_size(verb, picture);
   add_choice(verb, "--thin", thin_choices, "how undecided pixels are drawn (draw)",
              [&picture](std::size_t i) { picture.thin = static_cast<Thin>(i); });
-  add_choice(verb, "--tiles", tile_choices, "whether tiles of rays are excluded together (off)",
-             [](std::size_t) {});
+  add_choice(verb, "--tiles", tile_choices, "whether tiles of rays are searched together first (on)",
+             [&picture](std::size_t i) { picture.tiles = i == 0; });
   add_value(verb, "--aov", "LIST", "further channels of an .exr, of depth,normal,steps,verdict",
             [=](const std::string& words) { render->take_channels(words); });
   add_value(verb, "--threads", "N", "how many work at once (one a core)", [=](const std::string& text) {

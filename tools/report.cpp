@@ -19,9 +19,8 @@ void print_text(const Report& report, const Options& options) {
   fmt::print(stderr, "\nbackend {}, target {}, precision {}, rounding {}",
              backend_name(options.kernel.backend), options.kernel.target,
              precision_name(options.kernel.precision), rounding(options));
-  if (report.verdicts)
-    fmt::print(stderr, ", search {}, inclusion {}", options.search->name, options.inclusion);
   fmt::print(stderr, "\n");
+  for (const Method& method : report.methods) fmt::print(stderr, "{}\n", to_text(method));
 }
 
 void print_json(const Report& report, const Timings& timings, const Options& options) {
@@ -38,9 +37,10 @@ void print_json(const Report& report, const Timings& timings, const Options& opt
   json["target"] = options.kernel.target;
   json["precision"] = precision_name(options.kernel.precision);
   json["rounding"] = rounding(options);
-  if (report.verdicts) {
-    json["search"] = options.search->name;
-    json["inclusion"] = options.inclusion;
+  if (!report.methods.empty()) {
+    json["search"] = report.methods.front().search->name;
+    json["inclusion"] = report.methods.front().inclusion->name;
+    json["why"] = report.methods.front().reason;
   }
   for (const auto& [name, milliseconds] : timings.entries)
     if (options.timings) json["timings"][name] = milliseconds;

@@ -6,8 +6,10 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "runtime/kernel.h"
+#include "runtime/method.h"
 #include "tools/options.h"
 
 namespace imp::tools {
@@ -46,6 +48,7 @@ struct Report {
   double milliseconds = 0;  // for these answers
   std::optional<Verdicts> verdicts;
   std::optional<Steps> steps;
+  std::vector<Method> methods;  // how rays were searched, a surface each
 };
 
 // What --timings asks for.

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "runtime/second_look.h"
 #include "tools/input.h"
 
 namespace imp::tools {
@@ -84,7 +85,7 @@ class Inputs {
 
 // Every row's verdict and steps, where the outputs have them.
 Report report_of(const Program& program, std::span<const Column> outputs, Rows rows, std::size_t count) {
-  Report report{name_of(rows), count, 0, {}, {}};
+  Report report{name_of(rows), count, 0, {}, {}, {}};
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     if (program.outputs[i].name == "steps") report.steps = steps_of(std::span(outputs[i]));
     if (program.outputs[i].name != "verdict") continue;
@@ -127,7 +128,8 @@ bool run(const TableJob& job, const Options& options, Diagnostics& diagnostics) 
   time("read table", reading);
 
   const Stopwatch building;
-  auto program = job.program(model->surfaces[*surface], diagnostics);
+  const Surface& chosen = model->surfaces[*surface];
+  auto program = job.program(chosen, options.kernel.precision, diagnostics);
   if (!program) return false;
   time("build program", building);
   const auto kernel = make_kernel(std::move(*program), options.kernel, &timings);
@@ -137,9 +139,21 @@ bool run(const TableJob& job, const Options& options, Diagnostics& diagnostics) 
   }
 
   const Stopwatch running;
-  const auto outputs = csv->rows() == 0 ? std::vector<Column>((*kernel)->program().outputs.size())
-                                        : run_rows(**kernel, inputs.columns, csv->rows());
+  auto outputs = csv->rows() == 0 ? std::vector<Column>((*kernel)->program().outputs.size())
+                                  : run_rows(**kernel, inputs.columns, csv->rows());
+  std::unique_ptr<Kernel> in_double;
+  const auto method = job.method ? std::optional(job.method(chosen)) : std::nullopt;
+  if (method && method->again_in_double)
+    look_again(outputs, (*kernel)->program(), inputs.columns, csv->rows(), [&] {
+      KernelOptions finer = options.kernel;
+      finer.precision = f64;
+      Diagnostics unused;
+      if (auto again = job.program(chosen, f64, unused))
+        if (auto made = make_kernel(*std::move(again), finer)) in_double = *std::move(made);
+      return in_double.get();
+    });
   Report report = report_of((*kernel)->program(), outputs, job.rows, csv->rows());
+  if (method) report.methods = {*method};
   report.milliseconds = running.milliseconds();
   time("run", running);
 

@@ -10,6 +10,7 @@
 #include "frontend/model.h"
 #include "runtime/csv.h"
 #include "runtime/kernel.h"
+#include "runtime/method.h"
 #include "tools/options.h"
 #include "tools/report.h"
 #include "tools/verbs.h"
@@ -22,8 +23,11 @@ struct TableJob {
   std::string file, table;  // paths
   Rows rows = Rows::points;
   std::vector<std::string_view> columns;  // appended
-  // The Program over the columns of such rows, then every uniform (two ends each, for boxes).
-  std::function<std::optional<Program>(const Surface&, Diagnostics&)> program;
+  // The Program over the columns of such rows, then every uniform (two ends each, for boxes), in numbers of
+  // a type.
+  std::function<std::optional<Program>(const Surface&, Type, Diagnostics&)> program;
+  // For rays: how they are searched.
+  std::function<Method(const Surface&)> method;
   // Appends a row's answers, each after a comma.
   std::function<void(std::string& text, std::span<const Column> outputs, std::size_t row)> write;
 };

@@ -148,7 +148,7 @@ struct Trace {
     const Stopwatch tracing;
     options.kernel.backend = Backend::interpreter;
     picture.kernel = options.kernel;
-    picture.search = options.search;
+    picture.wish = options.wish;
     picture.limits = options.limits;
     const auto trace = trace_pixel(*model, picture, *uniforms, pixel, diagnostics);
     if (!trace) return false;
@@ -165,7 +165,7 @@ struct Trace {
     if (!output.close(diagnostics)) return false;
 
     const float verdict = trace->answer.at("verdict"), steps = trace->answer.at("steps");
-    Report report{"pixels", 1, milliseconds, Verdicts{}, Steps{steps, steps}};
+    Report report{"pixels", 1, milliseconds, Verdicts{}, Steps{steps, steps}, {}};
     (verdict == verdict_hit    ? report.verdicts->hit
      : verdict == verdict_miss ? report.verdicts->miss
                                : report.verdicts->undecided) = 1;

@@ -1,19 +1,81 @@
 #include "passes/extend/interval.h"
 
-#include <limits>
+#include <algorithm>
 
 #include "ir/assert.h"
-#include "passes/constants.h"
+#include "passes/extend/forms.h"
+#include "passes/extend/over_box.h"
 
 namespace imp {
 namespace {
 
-using Value = IntervalRules::Value;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 // So far from overflow that a rounding more or less does not matter.
 double safe(Type type) { return type == f32 ? 1e30 : 1e300; }
+
+// `a`, of which no value is negative. Its lower end may be, as rounding is not monotone: over the whole domain
+// exp(x) - 1 is bounded by constants, within it by a computed exponential. The upper end is not, being at or
+// above the exact one.
+Interval nonnegative(Interval a) {
+  a.nlo = min(zero(a.nlo), a.nlo);
+  a.facts.nonnegative = true;
+  return a;
+}
+
+// For every node whether the rule of a user takes fewer ops where the node is known to be nonnegative.
+std::vector<bool> better_nonnegative(const Program& f) {
+  std::vector<bool> result(f.graph.size());
+  for (std::uint32_t i = 0; i < f.graph.size(); ++i) {
+    const Node node = f.graph[Id{i}];
+    const auto is_constant = [&](Id arg) { return f.graph[arg].op == Op::constant; };
+    switch (node.op) {
+      case Op::mul:
+        if (std::ranges::any_of(node.args, is_constant)) break;
+        [[fallthrough]];
+      case Op::fma:  result[node.args[1].index] = true; [[fallthrough]];
+      case Op::abs:
+      case Op::sqrt:
+      case Op::powi:
+      case Op::pow:  result[node.args[0].index] = true; break;
+      case Op::div:  result[node.args[1].index] = true; break;
+      default:       break;
+    }
+  }
+  return result;
+}
+
+struct OverBox : IntervalRules {
+  const Program& f;
+  std::span<const Interval> sides;
+  std::vector<std::optional<Range>> known;  // by node, where the domain is
+  std::vector<bool> worth_a_sign = better_nonnegative(f);
+  Graph& graph;
+  Type type;
+
+  OverBox(const Program& program, std::span<const Interval> inputs, std::vector<std::optional<Range>> ranges)
+      : f(program),
+        sides(inputs),
+        known(std::move(ranges)),
+        graph(*inputs[0].hi.graph),
+        type(inputs[0].hi.type()) {
+    IMP_ASSERT(sides.size() == f.inputs.size(), "an enclosure of every input");
+  }
+
+  Interval input(std::size_t i) const { return sides[i]; }
+  Possible truth(bool value) const { return {truth_of(graph, value), truth_of(graph, !value)}; }
+  Interval constant(const Enclosure& value) const { return constant_interval(graph, type, value); }
+  Value finished(Id id, Value value) const {
+    if (const auto& range = known.empty() ? std::nullopt : known[id.index]) {
+      Interval& number = value.number;
+      number.facts.bounded |= range->bounded_by(safe(type));
+      if (!number.facts.nonnegative && worth_a_sign[id.index] && 0 <= range->lo && range->lo <= range->hi)
+        number = nonnegative(number);
+    }
+    graph.set_span(value.number.hi.id, f.graph.span(id));
+    return value;
+  }
+};
+
+}  // namespace
 
 Interval constant_interval(Graph& graph, Type type, const Enclosure& value) {
   if (value.lo > value.hi) {
@@ -26,59 +88,13 @@ Interval constant_interval(Graph& graph, Type type, const Enclosure& value) {
   return result;
 }
 
-// Runs the rules over every node of `f`. Where an op has no rule, `refuse` is told of the node.
-template <class Refuse>
-std::vector<std::optional<Value>> replay_intervals(const Program& f, std::span<const Interval> inputs,
-                                                   std::span<const std::optional<Range>> known,
-                                                   Refuse refuse) {
-  IMP_ASSERT(inputs.size() == f.inputs.size() && !inputs.empty(), "an enclosure of every input");
-  Graph& graph = *inputs[0].hi.graph;
-  const Type type = inputs[0].hi.type();
-  const auto constants = constant_values(f);
-  IntervalRules rules;
-  std::vector<std::optional<Value>> values(f.graph.size());
-  std::vector<Value> args;
-
-  for (std::uint32_t i = 0; i < values.size(); ++i) {
-    const Node node = f.graph[Id{i}];
-    if (node.op == Op::input) {
-      values[i] = inputs[node.payload];
-    } else if (node.type.is_truth() && node.op == Op::constant) {
-      const Truth value = truth_of(graph, node.payload != 0);
-      values[i] = Possible{value, !value};
-    } else if (constants[i] && node.type.is_real()) {
-      values[i] = constant_interval(graph, type, *constants[i]);
-    } else {
-      args.clear();
-      for (const Id arg : node.args)
-        if (values[arg.index]) args.push_back(*values[arg.index]);
-      if (args.size() < node.args.size()) {
-        // an operand was refused
-      } else if (node.op == Op::mul && node.args[0] == node.args[1]) {
-        values[i] = rules.square(args[0]);
-      } else {
-        values[i] = apply(rules, node.op, std::span<const Value>(args));
-      }
-      if (!values[i]) refuse(Id{i});
-    }
-    if (values[i] && node.type.is_real()) {
-      Interval& number = values[i]->number;
-      if (!known.empty() && known[i]) number.facts.bounded |= known[i]->bounded_by(safe(type));
-      graph.set_span(number.hi.id, f.graph.span(Id{i}));
-    }
-  }
-  return values;
-}
-
-}  // namespace
-
 std::vector<std::optional<Range>> ranges(const Program& program, std::span<const Range> inputs, Type type) {
   Graph scratch;
   std::vector<Interval> boxes;
   for (const Range& range : inputs)
     boxes.push_back(interval(rounded_up(scratch, type, -range.lo), rounded_up(scratch, type, range.hi),
                              {range.lo >= 0, range.bounded_by(safe(type))}));
-  const auto values = replay_intervals(program, boxes, {}, [](Id) {});
+  const auto values = over_box(program, OverBox(program, boxes, {}));
 
   std::vector<std::optional<Range>> result(values.size());
   for (std::uint32_t i = 0; i < values.size(); ++i) {
@@ -92,53 +108,24 @@ std::vector<std::optional<Range>> ranges(const Program& program, std::span<const
   return result;
 }
 
-std::optional<std::vector<Interval>> enclose(const Program& f, std::span<const Interval> inputs,
-                                             Diagnostics& diagnostics, std::span<const Range> domain) {
+std::vector<std::optional<IntervalRules::Value>> enclose_nodes(const Program& f,
+                                                               std::span<const Interval> inputs,
+                                                               std::span<const Range> domain) {
   std::vector<std::optional<Range>> known;
   if (!domain.empty()) known = ranges(f, domain, inputs[0].hi.type());
-  std::optional<Id> refused;
-  const auto values = replay_intervals(f, inputs, known, [&](Id id) {
-    if (!refused) refused = id;
-  });
-
-  std::vector<Interval> result;
-  for (const Output& output : f.outputs) {
-    if (!values[output.id.index]) {
-      diagnostics.error(f.graph.span(*refused), "the interval extension cannot bound '" +
-                                                    std::string(info(f.graph[*refused].op).name) + "' yet");
-      return std::nullopt;
-    }
-    result.push_back(*values[output.id.index]);
-  }
-  return result;
+  return over_box(f, OverBox(f, inputs, std::move(known)));
 }
 
-std::optional<Program> interval_extension(const Program& f, Type type, Diagnostics& diagnostics) {
-  Program result{.name = f.name};
-  Graph& graph = result.graph;
-  std::vector<Interval> boxes;
-  Truth no_box = truth_of(graph, false);
-  for (const Input& input : f.inputs) {
-    const Expr lo{&graph, add_input(result, input.name + "lo", f64, input.rate)};
-    const Expr hi{&graph, add_input(result, input.name + "hi", f64, input.rate)};
-    no_box = no_box || !(lo <= hi) || !(lo < infinity) || !(-infinity < hi);
-    boxes.push_back(type == f32 ? interval(narrow_up(-lo), narrow_up(hi)) : interval(-lo, hi));
-  }
-  const auto values = enclose(f, boxes, diagnostics);
+std::optional<std::vector<Interval>> enclose(const Program& f, std::span<const Interval> inputs,
+                                             Diagnostics& diagnostics, std::span<const Range> domain) {
+  const auto values = outputs_of(f, enclose_nodes(f, inputs, domain), diagnostics);
   if (!values) return std::nullopt;
+  return std::vector<Interval>(values->begin(), values->end());
+}
 
-  for (std::size_t i = 0; i < values->size(); ++i) {
-    const Interval& value = (*values)[i];
-    const std::string& name = f.outputs[i].name;
-    const Truth empty = value.empty || no_box;
-    const auto wide = [&](Expr end) { return type == f32 ? widen(end) : end; };
-    const Expr lo = wide(value.lo()), hi = wide(value.hi);
-    const Expr infinite = constant_like(hi, infinity);
-    result.outputs.push_back({name + "lo", select(empty, infinite, lo).id});
-    result.outputs.push_back({name + "hi", select(empty, -infinite, hi).id});
-    result.outputs.push_back({name + "defined", (value.continuous && !empty).id});
-  }
-  return result;
+std::optional<std::vector<Interval>> interval_form(const Program& f, const InputBox& box,
+                                                   Diagnostics& diagnostics) {
+  return enclose(f, box.sides, diagnostics, box.domain);
 }
 
 }  // namespace imp

@@ -1,4 +1,4 @@
-// The natural interval extension as a pass, and as a function for use within a larger Program.
+// The natural interval extension, for use within a larger Program.
 #pragma once
 
 #include <optional>
@@ -11,6 +11,11 @@
 
 namespace imp {
 
+struct Enclosure;
+
+// The interval of a constant, empty where it has no value.
+Interval constant_interval(Graph& graph, Type type, const Enclosure& value);
+
 // Enclosures of the outputs of `f` (f64, constants unresolved) for enclosures of its inputs, built
 // in the graph and the type of `inputs`. `domain`, if given, holds a range for each input, which
 // the boxes will never leave: bounds known to be finite then need no care for 0 * inf.
@@ -18,10 +23,9 @@ namespace imp {
 std::optional<std::vector<Interval>> enclose(const Program& f, std::span<const Interval> inputs,
                                              Diagnostics& diagnostics, std::span<const Range> domain = {});
 
-// For a Program with inputs x, … and outputs f, … of type f64 the Program over boxes: inputs xlo,
-// xhi, … of type f64, which are narrowed outward where `type` is f32; outputs flo, fhi (f64,
-// inf and -inf where empty) and fdefined (truth: defined and continuous on the whole box).
-// An input that is not a box (lo > hi or NaN) has no points: the answer is empty and not defined.
-std::optional<Program> interval_extension(const Program& f, Type type, Diagnostics& diagnostics);
+// Of every node that has a rule, by index, the numbers and the truths.
+std::vector<std::optional<IntervalRules::Value>> enclose_nodes(const Program& f,
+                                                               std::span<const Interval> inputs,
+                                                               std::span<const Range> domain = {});
 
 }  // namespace imp

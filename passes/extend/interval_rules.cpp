@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "ir/addition_chain.h"
 #include "ir/assert.h"
 
 namespace imp {
@@ -73,15 +74,9 @@ Expr magnitude(Expr r, Sign sign) {
 // x > 0 all factors are too large, for x < 0 all magnitudes too small.
 Expr signed_power_up(Expr x, unsigned n, Sign sign) {
   const bool may_underflow = n >= 16;
-  int bit = 31;
-  while (((n >> bit) & 1u) == 0) --bit;
-  Expr r = x;
-  for (--bit; bit >= 0; --bit) {
-    r = mul_up(r, magnitude(r, sign));
-    if ((n >> bit) & 1u) r = mul_up(r, magnitude(x, sign));
-    if (may_underflow && bit > 0) r = out_of_denormals(r);
-  }
-  return r;
+  const auto tame = [&](Expr r) { return may_underflow && !(r == x) ? out_of_denormals(r) : r; };
+  return positive_power(
+      x, n, [&](Expr left, Expr right) { return mul_up(tame(left), magnitude(tame(right), sign)); });
 }
 
 Interval power(const Interval& a, unsigned n) {

@@ -75,6 +75,7 @@ class IntervalRules {
   Interval sign(const Interval& a) const;
   Interval mod(const Interval& a, const Interval& b) const;
   Interval powi(const Interval& a, const Interval& n) const;
+  Interval chebyshev(const Interval& a, const Interval& degree, const Interval& order) const;
 
   // elementary_rules.cpp
   Interval pow(const Interval& a, const Interval& b) const;

@@ -10,27 +10,43 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
+#include "ir/diagnostics.h"
 #include "ir/program.h"
 #include "passes/extend/interval_rules.h"
 
 namespace imp {
 
-// The same segment twice: as enclosures of the true one, and as the nearest numbers.
+// The same segment as enclosures of the true one, in the kernel's type and in f64, and as the nearest numbers.
 struct Segment {
   std::array<Interval, 3> origin_bounds, direction_bounds;
+  std::array<Interval, 3> wide_origin_bounds, wide_direction_bounds;  // in f64
   std::array<Expr, 3> origin, direction;
   Truth exists;  // false: the ray has no such segment, and the answer is a miss
+};
+
+struct RayDegree {
+  std::uint32_t degree;
+  Span span;  // of f in the text
 };
 
 // f along the segment. Point values propose, enclosures decide.
 struct RayFunction {
   std::function<Interval(const Interval& s)> bound;        // encloses f over the piece s
   std::function<Interval(const Interval& s)> slope_bound;  // encloses df/ds
+  std::function<Interval(Expr s)> bound_at;                // encloses f at one place: as tight, for less
   std::function<Expr(Expr s)> value;                       // f, rounded
   std::function<Expr(Expr s)> slope;                       // df/ds, rounded
-  Expr like;                                               // any number of the kernel's type
+  std::function<Expr(Expr s)> newton_in_double;  // the step from s, f / (df/ds), evaluated in double
+  Expr like;                                     // any number of the kernel's type
   Truth exists;
+
+  // Where f is a polynomial in x, y, z: its degree in s at most, and enclosures of its coefficients in Bernstein
+  // form over the piece s, in the type of its ends. Errors point at what makes f none, or say that it has too many
+  // coefficients. Where one coefficient is empty, f is defined nowhere on the ray.
+  std::function<std::optional<RayDegree>(Diagnostics&)> degree{};
+  std::function<std::optional<std::vector<Interval>>(const Interval& s, Diagnostics&)> coefficients{};
 };
 
 struct SearchLimits {
@@ -67,7 +83,9 @@ struct Found {
   Expr steps;  // evaluations of the inclusion
 };
 
-using Strategy = Found (*)(Program& program, const RayFunction& f, const SearchLimits& limits);
+// Errors say why the strategy is not for this f, and what is.
+using Strategy = std::optional<Found> (*)(Program& program, const RayFunction& f, const SearchLimits& limits,
+                                          Diagnostics& diagnostics);
 
 struct Search {
   std::string_view name;
@@ -79,6 +97,15 @@ struct Search {
 std::span<const Search> searches();
 const Search* search_named(std::string_view name);
 
-Found stackless(Program& program, const RayFunction& f, const SearchLimits& limits);
+std::optional<Found> stackless(Program& program, const RayFunction& f, const SearchLimits& limits,
+                               Diagnostics& diagnostics);
+std::optional<Found> isolate(Program& program, const RayFunction& f, const SearchLimits& limits,
+                             Diagnostics& diagnostics);
+std::optional<Found> segment_tracing(Program& program, const RayFunction& f, const SearchLimits& limits,
+                                     Diagnostics& diagnostics);
+std::optional<Found> polynomial(Program& program, const RayFunction& f, const SearchLimits& limits,
+                                Diagnostics& diagnostics);
+std::optional<Found> bernstein(Program& program, const RayFunction& f, const SearchLimits& limits,
+                               Diagnostics& diagnostics);
 
 }  // namespace imp

@@ -10,6 +10,13 @@ std::span<const Search> searches() {
   static constexpr std::array list{
       Search{"stackless", "interval bisection without a stack, lanes independent (Knoll et al. 2009)",
              stackless},
+      Search{"isolate", "pieces on which df/ds excludes 0, and the signs at their ends", isolate},
+      Search{"bernstein",
+             "sign variations of Bernstein coefficients, for polynomials (Seland and Dokken 2007)",
+             bernstein},
+      Search{"polynomial", "between the critical points, by those of the derivatives (Yuksel 2022)",
+             polynomial},
+      Search{"segment", "steps by the slopes of the piece ahead (Galin et al. 2020)", segment_tracing},
   };
   return list;
 }

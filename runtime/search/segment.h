@@ -5,14 +5,14 @@
 #include <span>
 
 #include "ir/diagnostics.h"
-#include "passes/range.h"
+#include "passes/extend/inclusion.h"
 #include "runtime/search/search.h"
 
 namespace imp {
 
-// A uniform of f in a kernel: its enclosure and its nearest number.
+// A uniform of f in a kernel: its enclosure, the same in f64, and its nearest number.
 struct Uniform {
-  Interval bounds;
+  Interval bounds, wide_bounds;
   Expr value;
 };
 
@@ -30,9 +30,9 @@ Segment segment_of_numbers(const std::array<Expr, 3>& o, const std::array<Expr, 
 using SpaceBounds = std::array<Range, 3>;
 
 // f (inputs x, y, z, then uniforms; f64) along the segment. Errors where f has no derivative or no
-// interval extension. The functions build into the segment's graph and share sub-expressions.
+// rule in the inclusion. The functions build into the segment's graph and share sub-expressions.
 std::optional<RayFunction> ray_function(const Program& f, const Segment& segment,
-                                        std::span<const Uniform> uniforms,
+                                        std::span<const Uniform> uniforms, const Inclusion& inclusion,
                                         const std::optional<SpaceBounds>& space, Diagnostics& diagnostics);
 
 }  // namespace imp

@@ -16,7 +16,8 @@
 #include <algorithm>
 
 #include "ir/loop.h"
-#include "runtime/search/parts/refine.h"
+#include "runtime/search/parts/proven.h"
+#include "runtime/search/parts/run.h"
 #include "runtime/search/search.h"
 
 namespace imp {
@@ -27,14 +28,10 @@ Truth is_even(Expr whole) {
   return equal(floor(half), half);
 }
 
-Expr proven_sign(const Interval& f) {
-  const Expr sign = select(is_positive(f), one(f.hi), select(is_negative(f), -one(f.hi), zero(f.hi)));
-  return select(f.empty, zero(sign), sign);
-}
-
 }  // namespace
 
-Found stackless(Program& program, const RayFunction& f, const SearchLimits& limits) {
+std::optional<Found> stackless(Program& program, const RayFunction& f, const SearchLimits& limits,
+                               Diagnostics& /*diagnostics*/) {
   const Expr zero_ = zero(f.like), one_ = one(f.like);
   const Truth no = truth_of(program.graph, false), yes = truth_of(program.graph, true);
   const double epsilon = epsilon_of(limits, f.like.type());
@@ -76,17 +73,17 @@ Found stackless(Program& program, const RayFunction& f, const SearchLimits& limi
   loop.enter_if(f.exists);
   loop.again_while(!closed && next_s < 1 && !(unsplit && end - run_start > longest_run(epsilon)));
 
-  const Expr a = loop.result(run), b = loop.result(s);
   const Truth found = loop.result(open);
-  const Truth changes = found && loop.result(before) * loop.result(after) < 0;
-  const Interval slope = f.slope_bound(interval(-a, b, {.nonnegative = true, .bounded = true}));
-  const Truth monotone = !may_be_zero(slope) && slope.continuous;
-  const Truth hit = changes && (b - a <= certified_length || monotone) && loop.result(smooth);
-  const Truth miss = !f.exists || (!found && b >= 1);
-
-  return {select(hit, constant_like(s, verdict_hit),
-                 select(miss, constant_like(s, verdict_miss), constant_like(s, verdict_undecided))),
-          found, refine(program, f, a, b, loop.result(before), changes), loop.result(steps)};
+  const Expr a = loop.result(run), b = loop.result(s);
+  return answer(program, f,
+                {.found = found,
+                 .a = a,
+                 .b = b,
+                 .before = loop.result(before),
+                 .after = loop.result(after),
+                 .smooth = loop.result(smooth),
+                 .single = monotone(f, a, b)},
+                !found && b >= 1, loop.result(steps));
 }
 
 }  // namespace imp

@@ -15,13 +15,13 @@ std::vector<Column> columns(const Model& model, const test::SurfaceEntry& entry,
       hi.push_back(lo.back() + std::ldexp(1.0, -static_cast<int>(i)));
     }
     result.push_back(lo);
-    if (evaluation == Evaluation::interval) result.push_back(hi);
+    if (over_boxes(evaluation)) result.push_back(hi);
   }
   Diagnostics diagnostics;
   const auto uniforms = uniform_values(model, {}, std::nullopt, diagnostics).value();
   for (const double value : uniforms) {
     result.push_back({value});
-    if (evaluation == Evaluation::interval) result.push_back({value});
+    if (over_boxes(evaluation)) result.push_back({value});
   }
   return result;
 }
@@ -55,7 +55,8 @@ TEST(Avx512, uses_its_registers_and_no_library) {
   const Model model = test::model_of(test::entry_named("barth_sextic"));
   for (const Type precision : {f32, f64}) {
     Diagnostics diagnostics;
-    const auto program = cast_program(model.surfaces[0], searches().front(), {}, precision, diagnostics);
+    const auto program =
+        cast_program(model.surfaces[0], searches().front(), inclusions().front(), {}, precision, diagnostics);
     ASSERT_TRUE(program) << to_text(diagnostics);
     const auto assembly = emit(lower(*program, {}), cpu_target("avx512").value(), CodeForm::assembly);
     ASSERT_TRUE(assembly) << assembly.error().message;

@@ -20,7 +20,7 @@ Program of(Op op, Type type) {
   std::vector<Id> args;
   for (int i = 0; i < info(op).arity; ++i)
     args.push_back(input(p, std::string(1, static_cast<char>('a' + i)), type).id);
-  if (op == Op::powi) return p;  // has a constant operand
+  if (takes_integers(op)) return p;  // has constant operands
   p.outputs.push_back({"f", p.graph.add(op, args)});
   return p;
 }

@@ -37,7 +37,7 @@ Program everything(bool upward) {
     for (int i = 0; i < op_count; ++i) {
       const Op op = static_cast<Op>(i);
       const OpInfo& row = info(op);
-      if (row.llvm.empty() || op == Op::powi || (rounds_up(op) && !upward)) continue;
+      if (row.llvm.empty() || takes_integers(op) || (rounds_up(op) && !upward)) continue;
       if (row.kind != OpKind::real && row.kind != OpKind::upward && row.kind != OpKind::compare) continue;
       const std::array args{sum, t, x};
       Id value = graph.add(op, std::span(args).first(static_cast<std::size_t>(row.arity)));

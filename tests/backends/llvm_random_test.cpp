@@ -13,7 +13,8 @@ class Generator {
     for (int i = 0; i < op_count; ++i) {
       const Op op = static_cast<Op>(i);
       const OpKind kind = info(op).kind;
-      if (kind == OpKind::elementary || kind == OpKind::packet || kind == OpKind::structure || op == Op::powi)
+      if (kind == OpKind::elementary || kind == OpKind::packet || kind == OpKind::structure ||
+          takes_integers(op))
         continue;
       if (op == Op::fma || op == Op::fma_up || (rounds_up(op) && !upward)) continue;  // fused here, not there
       ops_.push_back(op);

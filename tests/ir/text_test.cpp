@@ -209,8 +209,8 @@ TEST(Text, names_are_quoted_where_they_are_no_words) {
   input ray nan: f32
   input ray "\x0a\\": f32
 
-  %1 = add %"x.y" %"1"
-  %2 = sub %nan %"\x0a\\"
+  %1 = sub %nan %"\x0a\\"
+  %2 = add %"x.y" %"1"
   %3 = mul %1 %2
 
   output "f'" = %3

@@ -3,11 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
-#include <iterator>
-#include <mutex>
-#include <thread>
 
+#include "tests/prove/cores.h"
 #include "tests/prove/rows.h"
 #include "tests/support/arguments.h"
 #include "tests/support/elementary_ops.h"
@@ -20,28 +17,9 @@ using test::FunctionError;
 
 constexpr std::size_t batch = 1 << 16;
 
-// Calls `measure(batch number)` for all numbers below `count`, on all cores.
-template <class Measure>
-FunctionError on_all_cores(std::uint64_t count, Measure measure) {
-  FunctionError total;
-  std::mutex mutex;
-  std::atomic<std::uint64_t> next = 0;
-  const auto work = [&] {
-    FunctionError mine;
-    for (std::uint64_t i = next++; i < count; i = next++) mine.add(measure(i));
-    const std::lock_guard lock(mutex);
-    total.add(mine);
-  };
-  std::vector<std::jthread> threads;
-  for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i) threads.emplace_back(work);
-  work();
-  threads.clear();
-  return total;
-}
-
 FunctionError all_floats(const test::FunctionKernel& kernel, std::uint64_t stride) {
   const std::uint64_t floats = (std::uint64_t{1} << 32) / stride;
-  return on_all_cores((floats + batch - 1) / batch, [&](std::uint64_t i) {
+  return on_all_cores<FunctionError>((floats + batch - 1) / batch, [&](std::uint64_t i) {
     std::vector<double> x;
     for (std::uint64_t k = i * batch; k < std::min(floats, (i + 1) * batch); ++k)
       x.push_back(test::float_of_bits(static_cast<std::uint32_t>(k * stride)));
@@ -50,7 +28,7 @@ FunctionError all_floats(const test::FunctionKernel& kernel, std::uint64_t strid
 }
 
 FunctionError random_arguments(const test::FunctionKernel& kernel, Type type, std::uint64_t samples) {
-  return on_all_cores((samples + batch - 1) / batch, [&](std::uint64_t i) {
+  return on_all_cores<FunctionError>((samples + batch - 1) / batch, [&](std::uint64_t i) {
     std::mt19937_64 random(i);
     std::vector<double> x, y;
     for (std::size_t k = 0; k < batch; ++k) {

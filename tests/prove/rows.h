@@ -11,11 +11,11 @@
 
 namespace imp::prove {
 
-// The row `key`, from the folder `done` or else by `compute()`, printed. A file is written under a
-// temporary name and renamed, so that it is whole. The key holds all that the row depends on, but for the
+// The line `key`, from the folder `done` or else by `compute()`. A file is written under a
+// temporary name and renamed, so that it is whole. The key holds all that the line depends on, but for the
 // code: empty the folder when that changes. `done` may be empty: nothing is remembered.
 template <class Compute>
-std::string row(const std::string& done, const std::string& key, Compute compute) {
+std::string remembered(const std::string& done, const std::string& key, Compute compute) {
   const std::filesystem::path file = std::filesystem::path(done) / key;
   std::string text;
   if (std::ifstream known(file); done.empty() || !std::getline(known, text)) {
@@ -27,8 +27,18 @@ std::string row(const std::string& done, const std::string& key, Compute compute
       std::filesystem::rename(temporary, file);
     }
   }
+  return text;
+}
+
+// A row of a table, printed.
+inline void print_row(const std::string& text) {
   fmt::print("{}\n", text);
   std::fflush(stdout);
+}
+template <class Compute>
+std::string row(const std::string& done, const std::string& key, Compute compute) {
+  std::string text = remembered(done, key, compute);
+  print_row(text);
   return text;
 }
 

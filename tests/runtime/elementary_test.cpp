@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/arguments.h"
+#include "tests/support/effort.h"
 #include "tests/support/elementary_ops.h"
 #include "tests/support/function_error.h"
 #include "tests/support/shader.h"
@@ -18,8 +19,8 @@ struct Arguments {
 
 // Floats all over their range, or random doubles.
 Arguments samples(Op op, Type type) {
-  constexpr std::uint64_t stride = 200'003;
-  constexpr int count = 20'000;
+  constexpr std::uint64_t stride = test::sanitized ? 2'000'003 : 200'003;
+  constexpr std::size_t count = test::sanitized ? 1200 : 20'000;
   Arguments a;
   if (type == f32 && info(op).arity == 1) {
     for (std::uint64_t bits = 0; bits < std::uint64_t{1} << 32; bits += stride)
@@ -27,7 +28,7 @@ Arguments samples(Op op, Type type) {
     return a;
   }
   std::mt19937_64 random(1);
-  for (int i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     a.x.push_back(test::random_argument(random, type));
     a.y.push_back(test::random_argument_beside(a.x.back(), random, type));
   }

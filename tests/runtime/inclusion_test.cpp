@@ -1,97 +1,90 @@
-// Enclosures of whole formulas: no value lies outside them.
+// Enclosures of the catalogue's surfaces, in every form and on every target that runs here: no value
+// lies outside of them, and none is called defined that is not (tools/dev prove surfaces tries more).
 #include <gtest/gtest.h>
 
-#include "passes/pass.h"
-#include "passes/precision.h"
-#include "tests/support/boxes.h"
-#include "tests/support/cast.h"
-#include "tests/support/error_scale.h"
+#include "tests/backends/llvm_support.h"
+#include "tests/support/effort.h"
+#include "tests/support/surface_trial.h"
 
-namespace imp {
+namespace imp::test {
 namespace {
 
-constexpr std::size_t box_count = 40, points_per_box = 8;
-
-// Boxes in the domain of a surface, and points in each of them, at its corners as often as not.
-struct Sample {
-  std::vector<Column> boxes{6}, points{3};
+struct Tried {
+  std::string name;
+  std::unique_ptr<Kernel> kernel;
 };
 
-Sample sample(const test::Domain& domain, std::uint64_t seed) {
-  test::Boxes boxes(seed);
-  Sample result;
-  for (std::size_t i = 0; i < box_count; ++i) {
-    std::array<test::Box1, 3> box;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      box[axis] = boxes.within(domain.lo[axis], domain.hi[axis]);
-      result.boxes[2 * axis].push_back(box[axis].lo);
-      result.boxes[2 * axis + 1].push_back(box[axis].hi);
+void expect_no_value_outside(const TriedSurface& surface, const std::vector<Tried>& tried,
+                             std::size_t boxes) {
+  for (const Tried& each : tried) {
+    const Kernel* const kernel = each.kernel.get();
+    const SurfaceCount count = try_surface(surface, {&kernel, 1}, 1, boxes, 4);
+    EXPECT_EQ(count.misses, 0u) << each.name << ": " << count.first;
+    EXPECT_EQ(count.overclaimed, 0u) << each.name << ": " << count.first;
+    EXPECT_LT(count.undecided * 10, count.values) << each.name;
+  }
+}
+
+class InclusionOfSurface : public testing::TestWithParam<const SurfaceEntry*> {};
+
+TEST_P(InclusionOfSurface, holds_every_value) {
+  const TriedSurface surface(*GetParam());
+  std::vector<Tried> tried;
+  for (const Inclusion& form : inclusions())
+    for (const Type type : {f32, f64}) {
+      if (sanitized && type == f64) continue;
+      if (auto kernel = surface.enclosure(form, type, {.backend = Backend::interpreter}))
+        tried.push_back({std::string(form.name) + ", " + to_text(type), std::move(kernel)});
     }
-    for (std::size_t k = 0; k < points_per_box; ++k)
-      for (std::size_t axis = 0; axis < 3; ++axis) result.points[axis].push_back(boxes.inside(box[axis]));
-  }
-  return result;
+  EXPECT_GE(tried.size(), 2u);
+  expect_no_value_outside(surface, tried, effort(24));
 }
 
-struct Enclosures {
-  Column lo, hi, defined;
-};
+INSTANTIATE_TEST_SUITE_P(Catalogue, InclusionOfSurface, testing::ValuesIn(all_entries()),
+                         [](const auto& test) { return test.param->id; });
 
-Enclosures enclosures(const Surface& surface, const KernelOptions& options, const Sample& sample) {
-  Diagnostics diagnostics;
-  const auto program = evaluation_program(surface, Evaluation::interval, options.precision, diagnostics);
-  if (!program) throw std::runtime_error(to_text(diagnostics));
-  auto columns = run_rows(*test::kernel_of(*program, options), sample.boxes, box_count);
-  return {std::move(columns[0]), std::move(columns[1]), std::move(columns[2])};
-}
-
-// The values at the points, each with what rounding may have done to it.
-struct Values {
-  Column f, slack;
-};
-
-Values values(const Surface& surface, const Sample& sample) {
-  const Program program = run_passes(in_precision(surface.f, f64), kernel_passes());
-  const auto kernel = interpret(program);
-  Values result;
-  result.f = run_rows(*kernel, sample.points, box_count * points_per_box)[0];
-  for (std::size_t i = 0; i < result.f.size(); ++i) {
-    const std::array p{sample.points[0][i], sample.points[1][i], sample.points[2][i]};
-    result.slack.push_back(1e-14 * test::error_scales(program, p)[0]);
-  }
-  return result;
-}
-
-// Of polynomials, which are defined everywhere. An enclosure in float holds the one in double.
-TEST(Inclusion, holds_every_value) {
-  std::uint64_t seed = 1;
-  for (const test::SurfaceEntry* entry : test::algebraic_entries()) {
-    SCOPED_TRACE(entry->id);
-    const Model model = test::model_of(*entry);
-    const Surface& surface = model.surfaces[0];
-    ASSERT_EQ(surface.f.inputs.size(), 3U);
-    const Sample boxes = sample(entry->domain, ++seed);
-    const auto [f, slack] = values(surface, boxes);
-    const Enclosures narrow = enclosures(surface, {}, boxes);
-    const Enclosures reference = enclosures(surface, {.backend = Backend::interpreter}, boxes);
-    const Enclosures wide = enclosures(surface, {.precision = f64}, boxes);
-
-    for (std::size_t i = 0; i < box_count; ++i) {
-      SCOPED_TRACE(i);
-      EXPECT_EQ(narrow.defined[i], 1);
-      EXPECT_EQ(wide.defined[i], 1);
-      EXPECT_EQ(narrow.lo[i], reference.lo[i]);
-      EXPECT_EQ(narrow.hi[i], reference.hi[i]);
-      EXPECT_LE(narrow.lo[i], wide.lo[i]);
-      EXPECT_GE(narrow.hi[i], wide.hi[i]);
-      for (std::size_t k = i * points_per_box; k < (i + 1) * points_per_box; ++k) {
-        EXPECT_LE(wide.lo[i], f[k] + slack[k]);
-        EXPECT_GE(wide.hi[i], f[k] - slack[k]);
+// A polynomial, a function with corners, and one of waves.
+TEST(Inclusion, holds_every_value_on_every_target) {
+  for (const char* id : {"tangle", "superquadric_knoll", "cloth"}) {
+    const TriedSurface surface(entry_named(id));
+    std::vector<Tried> tried;
+    for (const Inclusion& form : inclusions())
+      for (const Type type : {f32, f64}) {
+        std::vector<KernelOptions> all;
+        for (const CpuTarget& target : targets_here()) all.push_back({.target = target.name});
+        if (type == f32 && form.name == "ia") all.push_back({.backend = Backend::glsl});
+        for (const KernelOptions& options : all)
+          if (auto kernel = surface.enclosure(form, type, options))
+            tried.push_back({fmt::format("{}, {}, {}, {}", id, form.name, to_text(type),
+                                         options.backend == Backend::glsl ? "glsl" : options.target),
+                             std::move(kernel)});
       }
-      if (HasFailure()) break;
+    EXPECT_GE(tried.size(), 4u);
+    expect_no_value_outside(surface, tried, 40);
+  }
+}
+
+// A float's enclosure holds that of doubles, and both backends mean the same.
+TEST(Inclusion, in_float_holds_that_in_double) {
+  const auto entries = algebraic_entries();
+  for (const SurfaceEntry* entry : std::span(entries).first(effort(entries.size()))) {
+    const TriedSurface surface(*entry);
+    const auto boxes = boxes_in(entry->domain, 7, 40);
+    const auto over = [&](Type type, Backend backend) {
+      return surface.enclose(*surface.enclosure(inclusions().front(), type, {.backend = backend}), boxes);
+    };
+    const auto narrow = over(f32, Backend::llvm), same = over(f32, Backend::interpreter);
+    const auto wide = over(f64, Backend::llvm);
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      ASSERT_EQ(narrow.defined[i], 1) << entry->id;
+      ASSERT_EQ(wide.defined[i], 1) << entry->id;
+      ASSERT_EQ(narrow.lo[i], same.lo[i]) << entry->id;
+      ASSERT_EQ(narrow.hi[i], same.hi[i]) << entry->id;
+      ASSERT_LE(narrow.lo[i], wide.lo[i]) << entry->id;
+      ASSERT_GE(narrow.hi[i], wide.hi[i]) << entry->id;
     }
   }
 }
 
 }  // namespace
-}  // namespace imp
+}  // namespace imp::test

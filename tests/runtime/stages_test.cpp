@@ -96,6 +96,8 @@ const void* frame_value(const Input& input) {
   return input.name == "base" ? static_cast<const void*>(&base) : &scale;
 }
 
+void nowhere(std::size_t, std::size_t, std::size_t, std::size_t) { ADD_FAILURE() << "every cell is needed"; }
+
 class Stages : public testing::TestWithParam<Backend> {};
 
 TEST_P(Stages, children_read_what_their_parent_found) {
@@ -114,7 +116,7 @@ TEST_P(Stages, children_read_what_their_parent_found) {
         }
       };
       Workers workers(threads);
-      run_stages(stages, size, frame_value, sink, workers);
+      run_stages(stages, size, frame_value, sink, nowhere, workers);
       for (std::uint32_t y = 0; y < size.height; ++y)
         for (std::uint32_t x = 0; x < size.width; ++x) {
           const auto it = pixels.find({x, y});
@@ -163,8 +165,59 @@ end
     }
   };
   Workers workers(2);
-  run_stages(stages, {60, 14}, frame_value, sink, workers);
+  run_stages(stages, {60, 14}, frame_value, sink, nowhere, workers);
   EXPECT_EQ(pixels, 60 * 14);
+}
+
+// Cells of 8 x 8 pixels in two slabs; needed where a slab says so: column 1 in slab 0, row 2 in slab 1.
+TEST_P(Stages, below_a_cell_that_is_not_needed_do_not_run) {
+  if (GetParam() == Backend::glsl) IMP_NEEDS_GL();
+  const auto stages = runnable(pipeline_of(R"(
+stage 4 4 2
+program first
+  input ray column: f32
+  input ray row: f32
+  input ray slab: f32
+  %first = eq %slab 0f
+  %one = eq %column 1f
+  %two = eq %row 2f
+  %a = and %first %one
+  %second = not %first
+  %b = and %second %two
+  %any = or %a %b
+  %needed = select %any 1f 0f
+  output needed = %needed
+end
+
+stage 8 8 1
+program pixel
+  input cell x0: f32
+  output x0 = %x0
+end
+)"),
+                               GetParam());
+  constexpr std::size_t width = 60, height = 30;
+  std::mutex mutex;
+  std::map<std::pair<std::size_t, std::size_t>, bool> ran;
+  const auto note = [&](std::size_t x, std::size_t y, bool run) {
+    EXPECT_TRUE(ran.insert({{x, y}, run}).second) << "heard of twice";
+  };
+  const PixelSink sink = [&](const PixelRows& rows) {
+    const std::scoped_lock lock(mutex);
+    for (std::size_t i = 0; i < rows.count; ++i)
+      if (rows.columns[i] < width && rows.rows[i] < height) note(rows.columns[i], rows.rows[i], true);
+  };
+  const NotNeededSink not_needed = [&](std::size_t x, std::size_t y, std::size_t w, std::size_t h) {
+    const std::scoped_lock lock(mutex);
+    for (std::size_t j = y; j < y + h; ++j)
+      for (std::size_t i = x; i < x + w; ++i) note(i, j, false);
+  };
+  Workers workers(2);
+  run_stages(stages, {width, height}, frame_value, sink, not_needed, workers);
+  ASSERT_EQ(ran.size(), width * height);
+  for (const auto& [place, run] : ran)
+    EXPECT_EQ(run, place.first / 8 % 4 == 1 || place.second / 8 % 4 == 2)
+        << place.first << ", " << place.second;
 }
 
 INSTANTIATE_TEST_SUITE_P(Backends, Stages,
@@ -184,7 +237,7 @@ TEST(Stages, stop_when_asked) {
     stop.request_stop();
   };
   Workers workers(1);
-  run_stages(stages, {640, 640}, frame_value, sink, workers, stop.get_token());
+  run_stages(stages, {640, 640}, frame_value, sink, nowhere, workers, stop.get_token());
   EXPECT_EQ(pixels, 32 * 32U);  // a tile that was begun is finished
 }
 
@@ -193,7 +246,7 @@ TEST(Stages, tell_how_far_they_are) {
   std::vector<double> heard;
   Workers workers(1);
   run_stages(
-      stages, {64, 64}, frame_value, [](const PixelRows&) {}, workers, {},
+      stages, {64, 64}, frame_value, [](const PixelRows&) {}, nowhere, workers, {},
       [&](double share) { heard.push_back(share); });
   EXPECT_EQ(heard, (std::vector{0.25, 0.5, 0.75, 1.0}));
 }

@@ -1,6 +1,8 @@
 // Rays through kernels: what `imp cast` does, with rays and answers as structs.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <memory>
 #include <optional>
 #include <span>
@@ -27,6 +29,13 @@ inline std::vector<Ray> rays_of(const SurfaceEntry& entry) {
   return rays;
 }
 
+// So that it can be read back: as a row for `imp cast`.
+inline std::string to_text(const Ray& ray) {
+  std::string text = fmt::format("{},{},{},{},{},{},{},{}", ray.o[0], ray.o[1], ray.o[2], ray.d[0], ray.d[1],
+                                 ray.d[2], ray.tmin, ray.tmax);
+  return ray.time ? text + fmt::format(", time {}", *ray.time) : text;
+}
+
 struct Answer {
   double verdict = 0, t = 0;
   std::array<double, 3> normal{};
@@ -43,12 +52,14 @@ inline std::unique_ptr<Kernel> kernel_of(Program program, const KernelOptions& o
 class Caster {
  public:
   explicit Caster(const Model& model, const KernelOptions& options = {}, const SearchLimits& limits = {},
-                  const std::vector<Override>& overrides = {})
+                  const std::vector<Override>& overrides = {},
+                  const Inclusion& inclusion = inclusions().front(),
+                  const Search& search = searches().front())
       : moves_(model.time.has_value()) {
     Diagnostics diagnostics;
     auto uniforms = uniform_values(model, overrides, std::nullopt, diagnostics);
     auto program =
-        cast_program(model.surfaces.at(0), searches().front(), limits, options.precision, diagnostics);
+        cast_program(model.surfaces.at(0), search, inclusion, limits, options.precision, diagnostics);
     if (!uniforms || !program) throw std::runtime_error(to_text(diagnostics));
     uniforms_ = *std::move(uniforms);
     kernel_ = kernel_of(*std::move(program), options);
@@ -75,6 +86,7 @@ class Caster {
       answers.push_back({out[0][i], out[1][i], {out[2][i], out[3][i], out[4][i]}, out[5][i]});
     return answers;
   }
+  const Program& program() const { return kernel_->program(); }  // as the backend runs it
   Answer operator()(const Ray& ray) const { return (*this)(std::span(&ray, 1)).front(); }
 
  private:

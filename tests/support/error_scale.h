@@ -38,6 +38,12 @@ struct ScaleRules {
     return {meaning::powi(a.value, n.value),
             n.value < 0 ? std::pow(a.scale / (a.value * a.value), -n.value) : std::pow(a.scale, n.value)};
   }
+  Scaled chebyshev(Scaled a, Scaled n, Scaled k) {
+    const double outside = std::fmax(1, std::abs(a.value));
+    const auto at = [&](double x, double order) { return meaning::chebyshev(x, n.value, order); };
+    const double slope = k.value < n.value ? at(outside, k.value + 1) : 0;
+    return {at(a.value, k.value), n.value * n.value * at(outside, k.value) + slope * a.scale};
+  }
   Scaled sqrt(Scaled a) {
     const double root = std::sqrt(a.value);
     return {root, root > 0 ? a.scale / root : std::sqrt(a.scale)};

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "ir/expr.h"
@@ -124,7 +125,7 @@ class RandomProgram {
     if (options_.tables && random_.one_in(5)) return of_table();
     if (options_.calls && random_.one_in(8)) return call();
     for (;;) {
-      const Op op = static_cast<Op>(random_.below(static_cast<std::size_t>(op_count)));
+      const Op op = some_op();
       switch (info(op).kind) {
         case OpKind::upward:
           if (!options_.upward) continue;
@@ -157,9 +158,21 @@ class RandomProgram {
   }
   Id of_numbers(Op op) { return of(op, number()); }
 
+  // Any but `chebyshev`, which comes with the powers.
+  Op some_op() {
+    constexpr auto skipped = static_cast<std::size_t>(Op::chebyshev);
+    const std::size_t i = random_.below(static_cast<std::size_t>(op_count) - 1);
+    return static_cast<Op>(i < skipped ? i : i + 1);
+  }
+
+  // a^n with n from -3 to 4; T_5(a), or the slope of T_6.
   Id power() {
     const Type t = number();
-    return graph().add(Op::powi, {pick(t), graph().constant(t, static_cast<double>(random_.below(10)) - 3)});
+    const Id a = pick(t);
+    const double n = static_cast<double>(random_.below(10)) - 3;
+    const auto integer = [&](double k) { return graph().constant(t, k); };
+    if (n < 5) return graph().add(Op::powi, {a, integer(n)});
+    return graph().add(Op::chebyshev, {a, integer(n), integer(n - 5)});
   }
 
   Id of_table() {
@@ -257,9 +270,14 @@ inline Program with_replaced(const Program& program, Id from, Id to = {}) {
 // A smaller Program that fails too: outputs are left out and nodes replaced by their operands or by
 // 1, as long as `fails` holds. The inputs stay.
 inline Program shrink(Program program, const std::function<bool(const Program&)>& fails) {
+  // Falls at every step, so that there is an end: nodes, those that are computed, outputs.
+  const auto weight = [](const Program& p) {
+    std::size_t computed = 0;
+    for (std::uint32_t i = 0; i < p.graph.size(); ++i) computed += p.graph[Id{i}].op != Op::constant;
+    return std::tuple(p.graph.size(), computed, p.outputs.size());
+  };
   const auto take = [&](Program candidate) {
-    if (candidate.graph.size() > program.graph.size() || !verify(candidate).empty() || !fails(candidate))
-      return false;
+    if (weight(candidate) >= weight(program) || !verify(candidate).empty() || !fails(candidate)) return false;
     program = std::move(candidate);
     return true;
   };

@@ -6,6 +6,7 @@
 
 #include "ir/text.h"
 #include "passes/pass.h"
+#include "passes/surface_passes.h"
 #include "tests/support/command.h"
 #include "tests/support/golden.h"
 
@@ -58,22 +59,35 @@ TEST(Inspect, shows_every_program) {
       Diagnostics diagnostics;
       const auto shown = parse_program(answer.out, program, diagnostics);
       ASSERT_TRUE(shown) << to_text(diagnostics);
-      EXPECT_EQ(shown->phases.size(), program == "cast" || program == "pixel" ? 2u : 0u);
+      const std::size_t phases = precision == "float" ? 3 : 2;  // the last one polishes in double
+      EXPECT_EQ(shown->phases.size(), program == "cast" || program == "pixel" ? phases : 0U);
       EXPECT_EQ(to_text(*shown), inspect({"--emit=ir", "--program", program, "--precision", precision}).out);
       EXPECT_NE(answer.out.find("\n# total "), std::string::npos);
     }
 }
 
+TEST(Inspect, says_how_rays_are_searched) {
+  EXPECT_NE(inspect({"--program=cast"}).out.find("\n# search isolate, inclusion auto (auto: "),
+            std::string::npos);
+  EXPECT_NE(inspect({"--program=pixel", "--search=stackless", "--inclusion=ia"},
+                    "surface a: x = 0\nsurface b: y = 0\n")
+                .out.find("\n# a: search stackless, inclusion ia\n# b: search stackless, inclusion ia\n"),
+            std::string::npos);
+  EXPECT_EQ(inspect({"--program=f"}).out.find("# search"), std::string::npos);
+}
+
 TEST(Inspect, shows_what_every_pass_changed) {
   const std::string out = inspect({"--passes", "--program=gradient"}).out;
-  EXPECT_TRUE(out.starts_with("== before the passes\nprogram torus\n")) << out;
+  EXPECT_TRUE(out.starts_with("== as written\nprogram torus\n")) << out;
+  EXPECT_EQ(count(out, "\n== before the passes of kernels\nprogram torus\n"), 1u);
   EXPECT_NE(out.find("powi"), std::string::npos);
   EXPECT_EQ(out.find("powi", out.find("\n== powers\n")), std::string::npos);
   // The table has a row for every pass; a Program is shown after each that changed it.
   const std::string table = out.substr(out.find("\n# pass "));
   for (const Pass& pass : kernel_passes())
     EXPECT_EQ(count(table, "\n# " + std::string(pass.name) + " "), runs_of(pass.name)) << pass.name;
-  EXPECT_EQ(count(out, "\n== ") + count(table, "unchanged\n"), kernel_passes().size());
+  EXPECT_EQ(count(out, "\n== ") + count(table, "unchanged\n"),
+            1 + surface_passes().size() + kernel_passes().size());
 }
 
 TEST(Inspect, shows_a_program_after_one_pass) {
@@ -109,7 +123,7 @@ TEST(Inspect, refuses_by_name) {
   expect_misuse({"--print-after", "pwers"}, "--print-after: unknown 'pwers'; did you mean 'powers'?");
   expect_misuse({"--print-after", "all"}, "--print-after: unknown 'all'; there are ");
   expect_misuse({"--emit=dot"}, "--emit: 'dot' is not there yet; there are ir, ll, asm");
-  expect_misuse({"--program=affine"}, "--program: 'affine' is not there yet; there are f, gradient");
+  expect_misuse({"--program=afine"}, "--program: unknown 'afine'; did you mean 'affine'?");
   expect_misuse({"--emit=asm", "--passes"}, "--emit: shows what comes after the passes");
   expect_misuse({"--stats"}, "--stats: nothing is evaluated here");
 

@@ -91,6 +91,33 @@ TEST(Eval, wants_one_surface) {
   EXPECT_EQ(wrong.err, "error: no surface 'plain'; did you mean 'plane'?\n");
 }
 
+// x^2 - x over [0, 1] by each: the contract is the natural extension where no form is named. By that
+// [0, 1] - [0, 1]; by the mean value -1/4 + [-1, 1] [-1/2, 1/2]; by Bernstein the hull of 0, -1/2, 0.
+TEST(Eval, encloses_by_the_form_that_is_named) {
+  const std::string box = "xlo,xhi,ylo,yhi,zlo,zhi\n0,1,0,0,0,0\n", text = "x^2 - x = 0";
+  const auto bounds = [&](const std::string& program, std::vector<std::string> more) {
+    const Answer answer = eval(program, box, std::move(more), text);
+    EXPECT_EQ(answer.exit, 0) << answer.err;
+    return answer.out.substr(answer.out.find("0,1,0,0,0,0,") + 12);
+  };
+  const std::string natural = bounds("interval", {});
+  EXPECT_EQ(natural, "-1,1,1\n");
+  EXPECT_EQ(bounds("interval", {"--inclusion=ia"}), natural);
+  EXPECT_EQ(bounds("interval", {"--inclusion=bernstein"}), "-0.5,0,1\n");
+  EXPECT_EQ(bounds("interval", {"--inclusion=mean-value"}), "-0.75,0.25,1\n");
+  EXPECT_EQ(bounds("mean-value", {"--inclusion=bernstein"}), bounds("mean-value", {}));
+}
+
+TEST(Eval, says_where_a_form_has_no_rule) {
+  const Answer answer =
+      eval("interval", "xlo,xhi,ylo,yhi,zlo,zhi\n0,1,0,0,0,0\n", {"--inclusion=bernstein"}, "y + sin(x) = 0");
+  EXPECT_EQ(answer.exit, 1);
+  EXPECT_NE(answer.err.find("s.imp:1:5: error: 'sin' makes this no polynomial in x, y, z; "
+                            "use --inclusion=auto\n"),
+            std::string::npos)
+      << answer.err;
+}
+
 TEST(Eval, reports_on_request) {
   const auto json = nlohmann::json::parse(eval("f", "x,y,z\n0,0,0\n", {"--stats=json", "--timings"}).err);
   EXPECT_EQ(json["points"], 1);
@@ -133,7 +160,7 @@ TEST(Cast, answers_every_ray) {
   EXPECT_EQ(stats["rays"], 2);
   EXPECT_EQ(stats["hit"], 1);
   EXPECT_EQ(stats["miss"], 1);
-  EXPECT_EQ(stats["search"], "stackless");
+  EXPECT_EQ(stats["search"], "isolate");
 }
 
 TEST(Cast, columns_set_uniforms) {

@@ -47,15 +47,15 @@ TEST(Trace, answers_what_the_picture_shows) {
     for (const std::string precision : {"float", "double"}) {
       const std::string picture = folder / "s.exr";
       ASSERT_EQ(test::imp({"render", "-", "--size=16x16", "-o", picture, "--aov=depth,normal,steps,verdict",
-                           "--precision", precision},
+                           "--precision", precision, "--search=isolate", "--tiles=off"},
                           text)
                     .exit,
                 0);
       const auto image = test::decode_image(picture);
       for (std::size_t i = 0; i < 16; ++i) {
         const std::size_t x = (5 * i) % 16, y = i;
-        const Answer answer =
-            trace(std::to_string(x) + "," + std::to_string(y), {"--precision", precision}, text);
+        const Answer answer = trace(std::to_string(x) + "," + std::to_string(y),
+                                    {"--precision", precision, "--search=isolate"}, text);
         ASSERT_EQ(answer.exit, 0) << answer.err;
         SCOPED_TRACE(answer.out);
         const float verdict = image.at(x, y, "verdict");

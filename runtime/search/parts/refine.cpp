@@ -29,7 +29,15 @@ Expr refine(Program& program, const RayFunction& f, Expr a, Expr b, Expr sign_a,
   loop.next(last, step);
   loop.enter_if(enter);
   loop.again_while(step > resolution * abs(s) && next_hi - next_lo > resolution);
-  return loop.result(s);
+  if (f.like.type() != f32) return loop.result(s);
+
+  Loop polish(program, "polish", 3);
+  const Expr rough = polish.state("s", loop.result(s));
+  const Expr better = rough - f.newton_in_double(rough);
+  polish.next(rough, select(a <= better && better <= b, better, rough));
+  polish.enter_if(enter);
+  polish.again_while(truth_of(program.graph, true));
+  return polish.result(rough);
 }
 
 }  // namespace imp

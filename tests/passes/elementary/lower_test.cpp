@@ -27,7 +27,7 @@ Program program_of(std::initializer_list<Op> functions, Type type) {
 // The kinds of ops that every backend spells for both types.
 bool basic(const Node& node) {
   switch (info(node.op).kind) {
-    case OpKind::real:      return node.op != Op::fma && node.op != Op::mod && node.op != Op::powi;
+    case OpKind::real:      return node.op != Op::fma && node.op != Op::mod && !takes_integers(node.op);
     case OpKind::compare:
     case OpKind::logic:
     case OpKind::choice:

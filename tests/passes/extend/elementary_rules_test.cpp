@@ -7,7 +7,7 @@
 
 #include "ir/meaning.h"
 #include "passes/elementary/lower.h"
-#include "passes/extend/interval.h"
+#include "passes/extend/forms.h"
 #include "tests/support/boxes.h"
 #include "tests/support/evaluate.h"
 #include "tests/support/make.h"
@@ -60,9 +60,9 @@ class ElementaryRule : public testing::TestWithParam<std::tuple<Function, Type>>
     const Expr x = input(f, "x", f64), y = input(f, "y", f64);
     output(f, "f", info(function.op).arity == 1 ? make(function.op, x) : make(function.op, x, y));
     Diagnostics diagnostics;
-    auto extension = interval_extension(f, type, diagnostics);
-    EXPECT_TRUE(extension) << to_text(diagnostics);
-    extension_ = interpret(lower_elementary(*extension));
+    auto extended = extension(f, interval_form, type, diagnostics);
+    EXPECT_TRUE(extended) << to_text(diagnostics);
+    extension_ = interpret(lower_elementary(*extended));
   }
 
   Bounds over(Box1 x, Box1 y) const {
@@ -163,7 +163,7 @@ Bounds over(Op op, Type type, Box1 x, Box1 y = {}) {
   const Expr a = input(f, "x", f64), b = input(f, "y", f64);
   output(f, "f", info(op).arity == 1 ? make(op, a) : make(op, a, b));
   Diagnostics diagnostics;
-  const auto kernel = interpret(lower_elementary(*interval_extension(f, type, diagnostics)));
+  const auto kernel = interpret(lower_elementary(*extension(f, interval_form, type, diagnostics)));
   const auto v = evaluate(*kernel, std::array{x.lo, x.hi, y.lo, y.hi});
   return {v[0], v[1], v[2] != 0};
 }

@@ -1,6 +1,6 @@
 // Intervals enclose: every rule on random boxes with values at their ends, and what sets IEEE 1788
 // asks for at the exceptions.
-#include "passes/extend/interval.h"
+#include "passes/extend/forms.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -34,11 +34,11 @@ class Extended {
     output(f, "f", formula(x, y));
     point_ = interpret(reduce_powers(in_precision(f, f64)));
     Diagnostics diagnostics;
-    auto extension = interval_extension(f, type, diagnostics);
-    EXPECT_TRUE(extension) << to_text(diagnostics);
-    EXPECT_EQ(verify(*extension), "");
-    text_ = to_text(*extension);
-    extension_ = interpret(*std::move(extension));
+    auto extended = extension(f, interval_form, type, diagnostics);
+    EXPECT_TRUE(extended) << to_text(diagnostics);
+    EXPECT_EQ(verify(*extended), "");
+    text_ = to_text(*extended);
+    extension_ = interpret(*std::move(extended));
   }
 
   double at(double x, double y) const { return evaluate(*point_, std::array{x, y})[0]; }
@@ -235,7 +235,7 @@ TEST(Interval, an_op_without_a_rule_is_refused_at_its_place) {
   const Expr x = input(f, "x", f64);
   output(f, "f", make(Op::scale2, x, x));
   Diagnostics diagnostics;
-  EXPECT_FALSE(interval_extension(f, f32, diagnostics));
+  EXPECT_FALSE(extension(f, interval_form, f32, diagnostics));
   ASSERT_EQ(diagnostics.errors(), 1u);
   EXPECT_EQ(diagnostics.all()[0].message, "the interval extension cannot bound 'scale2' yet");
 }

@@ -1,0 +1,12 @@
+// Chebyshev polynomials as sums and products, as no processor has them.
+#pragma once
+
+#include "ir/program.h"
+
+namespace imp {
+
+// Every `chebyshev` as the doublings of ir/chebyshev.h, shared between degrees, and between a polynomial
+// and its derivatives. Preserves bits.
+Program reduce_chebyshev(const Program& program);
+
+}  // namespace imp

@@ -1,0 +1,72 @@
+// Reduced affine arithmetic as a number type that builds nodes: Messine's AF1 (2002), as in Knoll et al.
+// 2009, §3.3.2, eq. 15. A quantity is c + x1 u1 + … + xn un + e [-1, 1] with the symbols u1, …, un in
+// [-1, 1]: what depends on them linearly stays together, everything else goes into e.
+//
+// Every rounding goes into e too. The operations on c and x are plain ones, each off by at most eps of its
+// result or what is denormal (design: faithful, denormals may be flushed); those on e round upward. Each rule
+// states in its place what it charges.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "passes/extend/interval_rules.h"
+
+namespace imp {
+
+struct Affine {
+  Expr c;
+  std::vector<Expr> x;  // the constant 0 where there is no dependence
+  Expr e;
+  double limit;   // |c| + Σ|xi| + e never exceeds it, on any box. Infinity: one may be infinite or NaN, and
+                  // then this is no form
+  int spare = 0;  // so many results below the smallest normal number may still be flushed at the cost of e
+};
+
+namespace affine {
+
+// Forms that never come near an overflow.
+bool is_bounded(const Affine& a);
+
+double eps(Type type);              // what a plain op may be off by, of its result
+double smallest_normal(Type type);  // and what it may lose below it
+bool is_power_of_two(double value);
+
+// So far from overflow that a rounding more or less does not matter.
+double safe(Type type);
+
+// The number `value`, give or take `error`: exact where that is 0.
+Affine constant(Expr like, std::size_t symbols, double value, double error);
+
+// An interval whose place is told by symbol `symbol`; by no symbol, without a tie to anything else. `limit`: of
+// its ends.
+Affine of_interval(const Interval& a, std::size_t symbols, std::optional<std::size_t> symbol, double limit);
+
+Expr radius(const Affine& a);     // Σ|xi| + e
+Expr magnitude(const Affine& a);  // |c| + Σ|xi| + e
+Truth is_form(const Affine& a);   // false where a part is infinite or NaN
+
+struct Ends {
+  Expr nlo, hi;
+};
+Ends ends(const Affine& a);  // they mean nothing where it is no form
+
+Affine neg(const Affine& a);
+Affine add(const Affine& a, const Affine& b);
+Affine sub(const Affine& a, const Affine& b);
+Affine mul(const Affine& a, const Affine& b);
+Affine square(const Affine& a);
+Affine cube(const Affine& a);
+
+// factor a, where the factor is `value` (not 0), or within 2 eps of it.
+Affine scale(const Affine& a, double value, bool exact);
+
+// factor a + [-rest.nlo, rest.hi]: what the linear rules of non-affine functions come down to. `limit` is of
+// the result.
+Affine line(const Affine& a, Expr factor, const Ends& rest, double limit);
+
+// Where c the one, else the other.
+Affine select(Truth c, const Affine& a, const Affine& b);
+
+}  // namespace affine
+}  // namespace imp

@@ -1,0 +1,47 @@
+// Beams: all rays of a tile at once, in slabs of depth, from coarse to fine.
+//
+// A tile is 64 x 64 pixels. Its beam is cut into 16 slabs; what is not excluded of it is cut again into 16 slabs
+// for each cell of 16 x 16 pixels. f and its derivative along the rays are enclosed over a whole slab (affine
+// forms over two picture axes and the depth: Flórez, Sbert, Sainz and Vehí 2008 cast beams with interval
+// methods), and tell of what class it is for every ray:
+//
+//    excluded, with the sign of f | void: f has no value | monotone: df/ds excludes 0 | unknown
+//
+// A third stage reads the classes front to back. A change of sign across monotone slabs is the first hit of every ray
+// that has these slabs in its domain; equal signs are no root, and are left behind.
+//
+// Lanes are slabs, so no lane waits for another; a slab costs one enclosure for up to 4096 rays.
+#pragma once
+
+#include <optional>
+
+#include "ir/stage.h"
+#include "runtime/camera.h"
+#include "runtime/render.h"
+
+namespace imp {
+
+// The stages before the pixels; none where beams can't be bounded (a domain that depends on parameters), and none
+// for shaders.
+// Errors as ray_function.
+std::optional<Pipeline> beam_stages(const Model& model, const RenderOptions& options,
+                                    Diagnostics& diagnostics);
+
+// What the last of these stages tells of a surface for all rays of a cell of pixels. Depths are along the
+// camera's axis; a ray is at depth z where it has gone z times as far as to depth 1.
+struct Beam {
+  Expr near;  // no ray has a root before it
+  Expr far;   // nor behind it
+  Truth
+      crosses;  // f is monotone from near to `end` along each ray, and changes its sign, to be proven no more
+  Expr end;     // in [near, far]
+  Expr sign;    // of f at near, where it crosses
+};
+
+// The inputs of a pixel's Program that hold it, for surface `index` of those drawn.
+Beam beam_inputs(Program& program, std::size_t index);
+
+// The pixels of the cell they are for.
+inline constexpr std::uint32_t beam_cell = 16;
+
+}  // namespace imp

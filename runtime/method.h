@@ -1,0 +1,31 @@
+// How the first root of a surface is found: by what was asked for, and elsewhere by what fits the formula.
+#pragma once
+
+#include <string>
+
+#include "passes/extend/inclusion.h"
+#include "runtime/options.h"
+#include "runtime/search/search.h"
+
+namespace imp {
+
+// What was asked for. Null is `auto`.
+struct Wish {
+  const Search* search = nullptr;
+  const Inclusion* inclusion = nullptr;
+};
+
+struct Method {
+  const Search* search;
+  const Inclusion* inclusion;
+  bool again_in_double;  // where floats decide nothing
+  std::string reason;    // of what was chosen here, for the reader; empty where all was asked for
+};
+
+// For `f` (f64) in a kernel like this.
+Method choose_method(const Program& f, const Wish& wish, const KernelOptions& kernel);
+
+// "search isolate, inclusion ia (auto: …)"
+std::string to_text(const Method& method);
+
+}  // namespace imp

@@ -1,0 +1,55 @@
+#include "tests/prove/surfaces.h"
+
+#include "tests/prove/cores.h"
+#include "tests/prove/rows.h"
+#include "tests/support/surface_trial.h"
+
+namespace imp::prove {
+namespace {
+
+constexpr std::uint64_t batch = 100;
+constexpr std::size_t points_a_box = 4;
+
+std::string row_text(const test::SurfaceEntry& entry, std::uint64_t samples) {
+  const test::TriedSurface surface(entry);
+  std::vector<std::unique_ptr<Kernel>> kernels;
+  std::vector<const Kernel*> tried;
+  std::string names, without;
+  for (const Inclusion& form : imp::inclusions()) {
+    bool both = true;
+    for (const Type type : {f32, f64}) {
+      auto kernel = surface.enclosure(form, type, {});
+      both &= kernel != nullptr;
+      if (!kernel) continue;
+      tried.push_back(kernel.get());
+      kernels.push_back(std::move(kernel));
+    }
+    std::string& list = both ? names : without;
+    list += (list.empty() ? "" : ", ") + std::string(form.name);
+  }
+  const auto count = on_all_cores<test::SurfaceCount>((samples + batch - 1) / batch, [&](std::uint64_t seed) {
+    return test::try_surface(surface, tried, seed, batch, points_a_box);
+  });
+  if (!count.first.empty()) fmt::print(stderr, "{}, wrong, the first: {}\n", entry.id, count.first);
+  return fmt::format("| {} | {} | {} | {} | {} | {} | {} |", entry.id, names, without, count.boxes,
+                     count.values, count.misses + count.overclaimed,
+                     count.misses + count.overclaimed == 0 ? "holds" : "FAILS");
+}
+
+}  // namespace
+
+bool surfaces(const SurfaceOptions& options) {
+  fmt::print("| surface | forms | without a rule | boxes | values | wrong | |\n");
+  fmt::print("| --- | --- | --- | ---: | ---: | ---: | --- |\n");
+  bool all_hold = true;
+  for (const test::SurfaceEntry& entry : test::catalogue()) {
+    if (!options.only.empty() && std::ranges::find(options.only, entry.id) == options.only.end()) continue;
+    const std::string key =
+        fmt::format("surface-{}-{}-{}", entry.id, imp::inclusions().size(), options.samples);
+    all_hold &=
+        !row(options.done, key, [&] { return row_text(entry, options.samples); }).ends_with("FAILS |");
+  }
+  return all_hold;
+}
+
+}  // namespace imp::prove

@@ -1,0 +1,100 @@
+// Beams: a picture that tiles were searched for together is the picture of its rays.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/picture.h"
+
+namespace imp {
+namespace {
+
+bool contradict(double a, double b) {
+  return (a == verdict_hit && b == verdict_miss) || (a == verdict_miss && b == verdict_hit);
+}
+
+// By `search` behind beams and without them. 70 and 50 are no multiples of a cell.
+void compare(const Model& model, const char* search) {
+  RenderOptions options = test::sized(70, 50);
+  options.depth = true;
+  options.wish.search = search ? search_named(search) : nullptr;
+  const Picture tiled = test::render(model, options);
+  options.tiles = false;
+  const Picture rays = test::render(model, options);
+  for (std::size_t i = 0; i < rays.verdict.size(); ++i) {
+    EXPECT_FALSE(contradict(tiled.verdict[i], rays.verdict[i])) << "pixel " << i;
+    if (tiled.verdict[i] == verdict_hit && rays.verdict[i] == verdict_hit) {
+      EXPECT_NEAR(tiled.depth[i], rays.depth[i], 1e-3F * rays.depth[i]) << "pixel " << i;
+    }
+  }
+  EXPECT_LE(tiled.count(verdict_undecided), rays.count(verdict_undecided) + 2)
+      << test::verdicts(tiled) << test::verdicts(rays);
+  EXPECT_GT(tiled.count(verdict_hit), 0U);
+}
+
+TEST(Beams, show_the_picture_of_the_rays) {
+  for (const char* id : {"sphere", "torus", "steiner", "tangle", "klein_bottle", "blobby"}) {
+    SCOPED_TRACE(id);
+    compare(test::model_of(test::entry_named(id)), nullptr);
+  }
+}
+
+// Where a cell of 16 x 16 pixels is small beside the surface, most rays have nothing left to search.
+TEST(Beams, take_steps_off_rays) {
+  const auto mean_steps = [](bool tiles) {
+    RenderOptions options = test::sized(256, 256);
+    options.steps = true;
+    options.tiles = tiles;
+    const Picture picture = test::render(test::model_of(test::entry_named("sphere")), options);
+    double sum = 0;
+    for (const float steps : picture.steps) sum += steps;
+    return sum / static_cast<double>(picture.steps.size());
+  };
+  EXPECT_LT(mean_steps(true), 0.5 * mean_steps(false));
+}
+
+TEST(Beams, stand_before_any_strategy) {
+  for (const Search& search : searches()) {
+    SCOPED_TRACE(search.name);
+    compare(test::model_of(test::entry_named("torus")), search.name.data());
+  }
+}
+
+TEST(Beams, for_every_camera_and_domain) {
+  const char* const surface = "x^2 + y^2 - z^2 = 0.2\n";
+  for (const char* view : {
+           "domain sphere(radius: 1.5)\ncamera from (3, 2, 4) to (0, 0, 0) fov 30",
+           "domain box((-1, -1, -1), (1, 1, 1))\ncamera from (3, 2, 4) to (0, 0, 0) height 4",
+           "domain box((-1, -1, -1), (1, 1, 1))\ncamera from (0, 0, 0.1) to (1, 0.2, 0) fov 100",  // within
+           "domain box((-1, -1, -1), (1, 1, 1))\ncamera from (0.5, 0, 0) to (0, 1, 1) fov 60",
+           "domain box((-1, -1, 0.3), (1, 1, 0.4))\ncamera from (3, 2, 4) to (0, 0, 0) fov 20",  // cuts it
+       }) {
+    SCOPED_TRACE(view);
+    compare(test::model_of(std::string(surface) + view), nullptr);
+  }
+}
+
+// Where a pole lies between two signs there is no surface.
+TEST(Beams, do_not_show_poles) {
+  RenderOptions options = test::sized(40, 40);
+  const Picture picture =
+      test::render(test::model_of("1/x = 0\ndomain box((-1, -1, -1), (1, 1, 1))"), options);
+  EXPECT_EQ(picture.count(verdict_hit), 0U) << test::verdicts(picture);
+}
+
+// What is nowhere defined, and what fills the domain.
+TEST(Beams, miss_what_has_no_values) {
+  RenderOptions options = test::sized(40, 40);
+  for (const char* source : {"sqrt(-1 - x^2) + y", "x^2 + 1", "log(x - 3) + y"}) {
+    const Picture picture = test::render(test::model_of(source), options);
+    EXPECT_EQ(picture.count(verdict_miss), 1600U) << source << test::verdicts(picture);
+  }
+}
+
+TEST(Beams, of_several_surfaces) {
+  compare(test::model_of(
+              "surface ball: x^2 + y^2 + z^2 = 1\nsurface plane: x + y = 0.3\ndomain sphere(radius: 2)"),
+          nullptr);
+}
+
+}  // namespace
+}  // namespace imp
