@@ -1,3 +1,18 @@
+set(IMP_UNITY "" CACHE STRING "What is compiled a folder at a time, which is quicker from nothing: libraries, tests")
+
+# imp_unity(TARGET): its files are compiled a folder at a time. Names in one folder must differ.
+function(imp_unity target)
+  get_target_property(sources ${target} SOURCES)
+  foreach(source ${sources})
+    cmake_path(GET source PARENT_PATH folder)
+    cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${PROJECT_SOURCE_DIR})
+    string(MAKE_C_IDENTIFIER "${folder}" folder)
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${folder})
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  target_compile_options(${target} PRIVATE -Wno-shadow)  # a local name may be that of another file
+endfunction()
+
 # imp_library(NAME [RECURSE] [ROUNDING] [EXCLUDE regex] [LINK target…] [PRIVATE target…])
 #
 # The static library of the current folder: every .cpp in it, so a new file needs no edit here. LINK is
@@ -16,6 +31,9 @@ function(imp_library name)
   if(sources)
     set(interface PUBLIC)
     add_library(${name} STATIC ${sources})
+    if(libraries IN_LIST IMP_UNITY)
+      imp_unity(${name})
+    endif()
     target_link_libraries(${name} PRIVATE ${arg_PRIVATE})
     if(arg_ROUNDING)
       target_compile_options(${name} PRIVATE ${IMP_ROUNDING})

@@ -82,6 +82,12 @@ inline Expr widen(Expr a) { return make(Op::widen, a); }
 inline Expr narrow(Expr a) { return make(Op::narrow, a); }
 inline Expr narrow_up(Expr a) { return make(Op::narrow_up, a); }
 
+// `a` as a number of `type`, rounded to nearest if that is the narrower one.
+inline Expr to(Type type, Expr a) {
+  if (a.type() == type) return a;
+  return type == f32 ? narrow(a) : widen(a);
+}
+
 inline Truth any(Truth a) { return {a.graph, a.graph->add(Op::any, {a.id})}; }
 inline Truth all(Truth a) { return {a.graph, a.graph->add(Op::all, {a.id})}; }
 

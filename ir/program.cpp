@@ -67,7 +67,7 @@ class Renumbered {
   std::vector<std::vector<std::uint64_t>> places_;
 };
 
-std::uint64_t mix(std::uint64_t seed, std::uint64_t value) {
+std::uint64_t stirred(std::uint64_t seed, std::uint64_t value) {
   seed = (seed ^ value) * 0x9e3779b97f4a7c15u;
   return seed ^ (seed >> 29);
 }
@@ -102,9 +102,9 @@ class Order {
   std::uint64_t meaning(const Node& node, const Renumbered& place) const {
     const bool moves = node.op == Op::state || node.op == Op::result;
     std::uint64_t hash =
-        mix(static_cast<std::uint64_t>(node.op), static_cast<std::uint64_t>(node.type.scalar));
-    hash = mix(mix(hash, node.type.length), moves ? place(node) : node.payload);
-    for (const Id arg : operands(node)) hash = mix(hash, meaning_[arg.index]);
+        stirred(static_cast<std::uint64_t>(node.op), static_cast<std::uint64_t>(node.type.scalar));
+    hash = stirred(stirred(hash, node.type.length), moves ? place(node) : node.payload);
+    for (const Id arg : operands(node)) hash = stirred(hash, meaning_[arg.index]);
     return hash;
   }
 

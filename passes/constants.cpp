@@ -5,14 +5,13 @@
 #include <limits>
 
 #include "ir/chebyshev.h"
+#include "ir/infinity.h"
 #include "ir/regions.h"
 #include "ir/replay.h"
 #include "passes/multiprecision.h"
 
 namespace imp {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // What is known of a constant: that it lies in `x`. Truths are 0 and 1, and [0, 1] if undecided.
 struct Known {
@@ -76,8 +75,12 @@ struct Rules {
   Known fma(const Known& a, const Known& b, const Known& c) { return add(mul(a, b), c); }
   Known neg(const Known& a) { return lift(mpfi_neg, a); }
   Known abs(const Known& a) { return lift(mpfi_abs, a); }
-  Known min(const Known& a, const Known& b) { return of_both(a, b, imp::min); }
-  Known max(const Known& a, const Known& b) { return of_both(a, b, imp::max); }
+  Known min(const Known& a, const Known& b) {
+    return of_both(a, b, [](auto& x, auto& y) { return imp::min(x, y); });
+  }
+  Known max(const Known& a, const Known& b) {
+    return of_both(a, b, [](auto& x, auto& y) { return imp::max(x, y); });
+  }
   Known sqrt(const Known& a) { return lift(mpfi_sqrt, within(a, 0, infinity)); }
   Known cbrt(const Known& a) { return lift(mpfi_cbrt, a); }
 

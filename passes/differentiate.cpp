@@ -66,7 +66,7 @@ struct Dual {
   Truth truth() const { return {value.graph, value.id}; }  // of a node that is one
 };
 
-struct Rules {
+struct DerivativeRules {
   using Value = Dual;
   Expr node;             // the one that is differentiated
   bool refused = false;  // it has a derivative that no op is
@@ -206,7 +206,7 @@ class Differentiator {
     }
     if (flat) return true;
 
-    Rules rules{{&graph_, id}};
+    DerivativeRules rules{{&graph_, id}};
     if (const auto dual = apply(rules, node.op, args); dual && !rules.refused) {
       derivatives_[id.index] = is_zero(dual->d) ? std::nullopt : dual->d;
       return true;

@@ -11,7 +11,7 @@
 namespace imp {
 namespace {
 
-constexpr std::size_t most_atoms = 32;  // in one term
+constexpr std::size_t most_atoms_of_a_term = 32;  // in one term
 
 using Polynomial = std::vector<BigInterval>;  // from the power 0, or T_0, on
 
@@ -123,7 +123,7 @@ struct Summand {
 class Economizer {
  public:
   Economizer(const Program& f, std::span<const Range> domain) : f_(f), domain_(domain) {
-    const auto views = sums_of_polynomials(f, most_atoms);
+    const auto views = sums_of_polynomials(f, most_atoms_of_a_term);
     std::vector<std::pair<Id, bool>> open{{f.outputs[0].id, false}};
     while (!open.empty()) {
       const auto [id, negated] = open.back();

@@ -22,7 +22,7 @@ struct Factor {
   std::uint32_t exponent;
 };
 
-struct Term {
+struct ProductTerm {
   std::vector<Factor> factors;
   bool negative = false;
   Signed written{};  // the same, where the graph has it
@@ -66,17 +66,17 @@ class Horner {
   Expr expr(Id id) const { return {graph_, id}; }
   Id now(Id old) const { return now_[old.index]; }
 
-  std::vector<Term> terms_of(Id sum) const {
-    std::vector<Term> terms;
+  std::vector<ProductTerm> terms_of(Id sum) const {
+    std::vector<ProductTerm> terms;
     for (const Operand& operand : chains_.operands(sum)) {
-      Term term{{}, operand.negative, {expr(now(operand.id)), operand.negative}};
+      ProductTerm term{{}, operand.negative, {expr(now(operand.id)), operand.negative}};
       take_factors(operand.id, term);
       terms.push_back(std::move(term));
     }
     return terms;
   }
 
-  void take_factors(Id product, Term& term) const {
+  void take_factors(Id product, ProductTerm& term) const {
     std::vector<Id> open{product};
     while (!open.empty()) {
       const Id id = open.back();
@@ -101,7 +101,7 @@ class Horner {
     }
   }
 
-  void take_constant(Expr constant, Term& term) const {
+  void take_constant(Expr constant, ProductTerm& term) const {
     const auto number = graph_->number(constant.id);
     if (number && std::signbit(*number)) {
       term.negative = !term.negative;
@@ -110,7 +110,7 @@ class Horner {
     if (!graph_->is_number(constant.id, 1)) multiply(term, {constant.id, 1});
   }
 
-  static void multiply(Term& term, Factor factor) {
+  static void multiply(ProductTerm& term, Factor factor) {
     for (Factor& known : term.factors)
       if (known.base == factor.base && known.exponent <= largest_exponent - factor.exponent) {
         known.exponent += factor.exponent;
@@ -119,20 +119,20 @@ class Horner {
     term.factors.push_back(factor);
   }
 
-  static Factor* find(Term& term, Factor common) {
+  static Factor* find(ProductTerm& term, Factor common) {
     const auto it = std::ranges::find_if(term.factors, [&](const Factor& factor) {
       return factor.base == common.base && divides(common.exponent, factor.exponent);
     });
     return it == term.factors.end() ? nullptr : &*it;
   }
 
-  Common most_in_common(std::vector<Term>& terms) const {
+  Common most_in_common(std::vector<ProductTerm>& terms) const {
     std::unordered_map<Id, std::size_t> occurrences;
-    for (const Term& term : terms)
+    for (const ProductTerm& term : terms)
       for (const Factor& factor : term.factors) ++occurrences[factor.base];
     Common best;
     std::set<std::pair<Id, std::uint32_t>> tried;
-    for (const Term& candidate : terms)
+    for (const ProductTerm& candidate : terms)
       for (const Factor& factor : candidate.factors) {
         if (occurrences[factor.base] < 2 || !tried.emplace(factor.base, factor.exponent).second) continue;
         const Common common = count(terms, factor);
@@ -141,9 +141,9 @@ class Horner {
     return best;
   }
 
-  Common count(std::vector<Term>& terms, Factor factor) const {
+  Common count(std::vector<ProductTerm>& terms, Factor factor) const {
     Common common{factor, 0, 0, !graph_->number(factor.base)};
-    for (Term& term : terms) {
+    for (ProductTerm& term : terms) {
       const Factor* found = find(term, factor);
       if (!found) continue;
       ++common.terms;
@@ -153,11 +153,11 @@ class Horner {
   }
 
   // The sum of the terms; nothing if no two of them have anything in common.
-  std::optional<Signed> factored(std::vector<Term> terms) const {
+  std::optional<Signed> factored(std::vector<ProductTerm> terms) const {
     const Common common = most_in_common(terms);
     if (common.terms < 2) return std::nullopt;
-    std::vector<Term> with_it, rest;
-    for (Term& term : terms) {
+    std::vector<ProductTerm> with_it, rest;
+    for (ProductTerm& term : terms) {
       Factor* factor = find(term, common.factor);
       if (!factor) {
         rest.push_back(std::move(term));
@@ -173,14 +173,14 @@ class Horner {
     return rest.empty() ? product : product + sum(std::move(rest));
   }
 
-  Signed sum(std::vector<Term> terms) const {
+  Signed sum(std::vector<ProductTerm> terms) const {
     if (const auto result = factored(terms)) return *result;
     Signed result = value(terms[0]);
     for (std::size_t i = 1; i < terms.size(); ++i) result = result + value(terms[i]);
     return result;
   }
 
-  Signed value(const Term& term) const {
+  Signed value(const ProductTerm& term) const {
     if (term.written.value.graph) return term.written;
     if (term.factors.empty()) return {expr(graph_->constant(type_, 1)), term.negative};
     Expr product = power(term.factors[0]);

@@ -8,7 +8,7 @@
 namespace imp {
 namespace {
 
-constexpr std::size_t most_atoms = 32;  // in one sum
+constexpr std::size_t most_atoms_of_a_sum = 32;  // in one sum
 
 // scale T_degree(u) + rest.
 struct Match {
@@ -84,7 +84,7 @@ std::optional<Expr> rebuilt(Graph& graph, const SumOfPolynomials& sum, const std
 
 // With sums looked into, T_6(x) + T_6(y) is found where it is one long sum; without, T_6(x + y).
 Program recognize_chebyshev(const Program& f) {
-  const auto parts = sums_of_polynomials(f, most_atoms), wholes = sums_of_polynomials(f, 1);
+  const auto parts = sums_of_polynomials(f, most_atoms_of_a_sum), wholes = sums_of_polynomials(f, 1);
   std::vector<Id> now(f.graph.size());
   return rewrite(f, [&](Graph& graph, Id old, const Node& node) {
     Id& result = now[old.index];

@@ -8,7 +8,7 @@ namespace imp {
 namespace {
 
 // What is known of a number over the domain. The ends of what is never defined mean nothing.
-struct Known {
+struct Bounds {
   double lo, hi;
   bool defined;  // everywhere
 };
@@ -35,7 +35,7 @@ class Specialization {
   }
 
  private:
-  Known known(Id id) const {
+  Bounds known(Id id) const {
     const Interval& number = values_[id.index]->number;
     const auto nlo = scratch_.number(number.nlo.id), hi = scratch_.number(number.hi.id);
     IMP_ASSERT(nlo && hi, "bounds that fold at a constant box");
@@ -50,12 +50,12 @@ class Specialization {
   }
 
   std::optional<Id> decided_number(Graph& graph, Id old, const Node& node) const {
-    const Known value = known(old);
+    const Bounds value = known(old);
     if (node.op != Op::constant && value.defined && value.lo == value.hi)
       return graph.constant(node.type, value.lo + 0.0);  // not -0
     switch (node.op) {
       case Op::abs: {
-        const Known a = operand(old, 0);
+        const Bounds a = operand(old, 0);
         if (a.lo >= 0) return node.args[0];
         if (a.hi <= 0) return graph.add(Op::neg, {node.args[0]});
         return std::nullopt;
@@ -68,14 +68,14 @@ class Specialization {
 
   // The larger one. Where the first is undefined the answer is the second (ir/ops.def), and where the second is,
   // there is none: the second may be taken whatever is undefined, the first only where nothing is.
-  static std::optional<Id> winner(const Node& node, Known a, Known b) {
+  static std::optional<Id> winner(const Node& node, Bounds a, Bounds b) {
     if (b.lo >= a.hi) return node.args[1];
     if (a.lo >= b.hi && a.defined && b.defined) return node.args[0];
     return std::nullopt;
   }
 
-  static Known turned(Known a) { return {-a.hi, -a.lo, a.defined}; }
-  Known operand(Id old, std::size_t i) const { return known(old_[old].args[i]); }
+  static Bounds turned(Bounds a) { return {-a.hi, -a.lo, a.defined}; }
+  Bounds operand(Id old, std::size_t i) const { return known(old_[old].args[i]); }
 
   const Graph& old_;
   Graph scratch_;

@@ -83,7 +83,7 @@ std::size_t degree(const View& a) {
   return most;
 }
 
-struct Rules {
+struct ViewRules {
   using Value = View;
 
   View add(const View& a, const View& b) { return a + b; }
@@ -122,7 +122,7 @@ struct Rules {
 std::vector<std::optional<SumOfPolynomials>> sums_of_polynomials(const Program& f, std::size_t most_atoms) {
   const Graph& graph = f.graph;
   std::vector<View> views(graph.size());
-  Rules rules;
+  ViewRules rules;
   std::vector<View> args;
   for (std::uint32_t i = 0; i < graph.size(); ++i) {
     const Id id{i};

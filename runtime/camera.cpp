@@ -1,7 +1,8 @@
 #include "runtime/camera.h"
 
-#include <limits>
 #include <string>
+
+#include "ir/infinity.h"
 
 namespace imp {
 namespace {
@@ -45,7 +46,6 @@ PixelRay orthographic_ray(const CameraInputs& camera, Expr i, Expr j) {
 
 // Slabs; a ray parallel to one is inside it for ever or never.
 Clip clip_to_box(const PixelRay& ray, const Vector& lo, const Vector& hi) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   Clip clip{zero(ray.origin[0]), constant_like(ray.origin[0], infinity)};
   for (std::size_t i = 0; i < 3; ++i) {
     const Expr o = ray.origin[i], d = ray.direction[i];

@@ -15,9 +15,6 @@
 namespace imp {
 namespace {
 
-Expr to(Type type, Expr wide) { return type == f32 ? narrow(wide) : wide; }
-Expr from(Type type, Expr value) { return type == f32 ? widen(value) : value; }
-
 // `program` (f64, constants unresolved) computed in `type`, between inputs and outputs in f64.
 Program at_points(const Program& program, Type type) {
   const Program inner = in_precision(program, type);
@@ -27,7 +24,7 @@ Program at_points(const Program& program, Type type) {
     inputs.push_back(to(type, {&result.graph, add_input(result, input.name, f64, Rate::ray)}));
   const auto values = inline_program(inner, inputs);
   for (std::size_t i = 0; i < values.size(); ++i)
-    result.outputs.push_back({program.outputs[i].name, from(type, values[i]).id});
+    result.outputs.push_back({program.outputs[i].name, to(f64, values[i]).id});
   return result;
 }
 
@@ -110,12 +107,12 @@ std::optional<Program> cast_program(const Surface& surface, const Search& search
   const Expr nothing = constant_like(tmin, std::numeric_limits<double>::quiet_NaN());
   const auto output = [&](const char* name, Expr value) { result.outputs.push_back({name, value.id}); };
   const auto where_found = [&](Expr value) { return select(found->something, value, nothing); };
-  output("verdict", from(precision, found->verdict));
-  output("t", where_found(tmin + from(precision, found->s) * (tmax - tmin)));
-  output("nx", where_found(from(precision, normal[0])));
-  output("ny", where_found(from(precision, normal[1])));
-  output("nz", where_found(from(precision, normal[2])));
-  output("steps", from(precision, found->steps));
+  output("verdict", to(f64, found->verdict));
+  output("t", where_found(tmin + to(f64, found->s) * (tmax - tmin)));
+  output("nx", where_found(to(f64, normal[0])));
+  output("ny", where_found(to(f64, normal[1])));
+  output("nz", where_found(to(f64, normal[2])));
+  output("steps", to(f64, found->steps));
   return result;
 }
 

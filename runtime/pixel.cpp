@@ -1,8 +1,8 @@
 #include "runtime/pixel.h"
 
 #include <algorithm>
-#include <limits>
 
+#include "ir/infinity.h"
 #include "passes/differentiate.h"
 #include "passes/inline.h"
 #include "passes/precision.h"
@@ -27,11 +27,6 @@ struct Sight {
   Expr t;         // the distance from the origin of the ray, f32
   Vector normal;  // of length 1, f32; along the ray where f has no gradient
 };
-
-Expr to(Type type, Expr value) {
-  if (value.type() == type) return value;
-  return type == f32 ? narrow(value) : widen(value);
-}
 
 Vector to(Type type, const Vector& v) { return {to(type, v[0]), to(type, v[1]), to(type, v[2])}; }
 
@@ -143,8 +138,7 @@ class Pixel {
   // The first of two. A hit is certified if the other surface is certain to lie behind it.
   Sight nearer(const Sight& a, const Sight& b) const {
     const auto place = [](const Sight& sight) {
-      return select(sight.something, sight.t,
-                    constant_like(sight.t, std::numeric_limits<double>::infinity()));
+      return select(sight.something, sight.t, constant_like(sight.t, infinity));
     };
     const Truth a_first = place(a) <= place(b);
     const auto pick = [&](Expr p, Expr q) { return select(a_first, p, q); };
@@ -192,7 +186,7 @@ class Pixel {
     const auto where_found = [&](Expr value, double otherwise) {
       return select(sight.something, value, constant_like(value, otherwise));
     };
-    if (options_.depth) output("depth", where_found(t, std::numeric_limits<double>::infinity()));
+    if (options_.depth) output("depth", where_found(t, infinity));
     if (options_.normal) {
       output("normal.x", where_found(sight.normal[0], 0));
       output("normal.y", where_found(sight.normal[1], 0));

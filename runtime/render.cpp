@@ -16,22 +16,22 @@ namespace {
 constexpr std::uint32_t tile = 64;
 
 // Where an output of the pixel's Program goes.
-struct Target {
+struct Destination {
   std::vector<float>* channel;
   std::size_t stride, offset;
   float background;  // where nothing is
 };
 
-std::map<std::string, Target> targets(Picture& picture) {
-  constexpr float infinity = std::numeric_limits<float>::infinity();
+std::map<std::string, Destination> targets(Picture& picture) {
+  constexpr float nowhere = std::numeric_limits<float>::infinity();
   const auto color = [&](std::size_t i) {
-    return Target{&picture.color, 3, i, static_cast<float>(background[i])};
+    return Destination{&picture.color, 3, i, static_cast<float>(background[i])};
   };
   return {{"red", color(0)},
           {"green", color(1)},
           {"blue", color(2)},
           {"verdict", {&picture.verdict, 1, 0, static_cast<float>(verdict_miss)}},
-          {"depth", {&picture.depth, 1, 0, infinity}},
+          {"depth", {&picture.depth, 1, 0, nowhere}},
           {"normal.x", {&picture.normal, 3, 0, 0}},
           {"normal.y", {&picture.normal, 3, 1, 0}},
           {"normal.z", {&picture.normal, 3, 2, 0}},
@@ -114,7 +114,7 @@ Picture Renderer::frame(const UniformValues& uniforms, std::stop_token stop,
                         const std::function<void(double)>& progress) const {
   const FrameInputs inputs(*model_, uniforms, options_.width, options_.height);
   Picture picture{options_.width, options_.height, {}, {}, {}, {}, {}};
-  std::vector<Target> channels;
+  std::vector<Destination> channels;
   for (const Output& output : program().outputs) {
     channels.push_back(targets(picture).at(output.name));
     channels.back().channel->resize(channels.back().stride * picture.width * picture.height);
@@ -131,7 +131,7 @@ Picture Renderer::frame(const UniformValues& uniforms, std::stop_token stop,
   };
   // Where all is excluded.
   const NotNeededSink not_needed = [&](std::size_t x, std::size_t y, std::size_t width, std::size_t height) {
-    for (const Target& target : channels)
+    for (const Destination& target : channels)
       for (std::size_t row = y; row < y + height; ++row)
         for (std::size_t place = row * picture.width + x; place < row * picture.width + x + width; ++place)
           (*target.channel)[target.stride * place + target.offset] = target.background;

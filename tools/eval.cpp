@@ -16,7 +16,7 @@ std::vector<std::string_view> columns_of(Evaluation evaluation) {
   }
 }
 
-void write(std::string& text, std::span<const Column> outputs, std::size_t row) {
+void write_rows(std::string& text, std::span<const Column> outputs, std::size_t row) {
   for (const Column& column : outputs) {
     text += ',';
     append_number(text, column[row]);
@@ -31,7 +31,7 @@ struct Eval {
   Exit run() {
     job.rows = over_boxes(evaluation) ? Rows::boxes : Rows::points;
     job.columns = columns_of(evaluation);
-    job.write = write;
+    job.write = write_rows;
     job.program = [this](const Surface& surface, Type precision, Diagnostics& diagnostics) {
       return evaluation_program(surface, evaluation, precision, diagnostics, options.named_inclusion);
     };

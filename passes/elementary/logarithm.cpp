@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 
+#include "ir/infinity.h"
 #include "passes/elementary/functions.h"
 #include "passes/elementary/pieces.h"
 
@@ -60,7 +61,7 @@ Expr asinh(Expr x) {
   const Sum all = exact_sum(linear.high, above_1);
   const Truth large = a > (single ? 0x1p10 : 0x1p27);
   const Sum near{select(large, a, all.high), select(large, zero(a), linear.low + all.low)};
-  const Truth finite = a < std::numeric_limits<double>::infinity();
+  const Truth finite = a < infinity;
   return odd(x, select(finite, log_of_twice(near), a), single ? 0x1p-12 : 0x1p-27);
 }
 
@@ -80,7 +81,6 @@ Expr acosh(Expr x) {
   const Truth large = x > (single ? 0x1p13 : 0x1p28);
   const Expr low = (linear.low + all.low) + correction;
   const Sum near{select(large, x, all.high * 0.5), select(large, zero(x), low * 0.5)};
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   return select(x < infinity, select(x < 1, constant_like(x, nan), log_of_twice(near)), x);
 }

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "ir/assert.h"
+#include "ir/infinity.h"
 
 namespace imp::elementary {
 
@@ -39,7 +40,6 @@ Expr odd(Expr x, Expr value_at_abs_x, double tiny) {
 }
 
 Expr on_positive(Expr x, Expr value) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   return select(x < infinity, select(x < 0, constant_like(x, nan), value), x);
 }

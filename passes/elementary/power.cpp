@@ -1,6 +1,7 @@
 // The real power and the cube root.
 #include <limits>
 
+#include "ir/infinity.h"
 #include "passes/elementary/functions.h"
 #include "passes/elementary/pieces.h"
 
@@ -8,10 +9,10 @@ namespace imp::elementary {
 namespace {
 
 // (3/2 log((1 + s)/(1 - s)) - 3 s - s^3)/s^5 in s^2 for |s| <= 0.1722, the log to 2^-36.7 and 2^-66.1.
-constexpr double log_f32[] = {0x1.333382p-1, 0x1.b67a2p-2, 0x1.67e082p-2};
-constexpr double log_f64[] = {0x1.3333333333474p-1, 0x1.b6db6db67fc7ep-2, 0x1.555555a4f7195p-2,
-                              0x1.1745ae5fe304bp-2, 0x1.d8aec5cb6cbb2p-3, 0x1.97367bd96a2c1p-3,
-                              0x1.95bdc88e4dd17p-3};
+constexpr double log_tail_f32[] = {0x1.333382p-1, 0x1.b67a2p-2, 0x1.67e082p-2};
+constexpr double log_tail_f64[] = {0x1.3333333333474p-1, 0x1.b6db6db67fc7ep-2, 0x1.555555a4f7195p-2,
+                                   0x1.1745ae5fe304bp-2, 0x1.d8aec5cb6cbb2p-3, 0x1.97367bd96a2c1p-3,
+                                   0x1.95bdc88e4dd17p-3};
 
 // ((1 + w)^(1/3) - 1)/w for |w| <= 2^-5 and 2^-9.5, the root to 2^-27.1 and 2^-65.9.
 constexpr double root_f32[] = {0x1.555554p-2, -0x1.c73f5ep-4, 0x1.fa1c4ap-5};
@@ -55,7 +56,7 @@ SplitLog split_log(Expr x) {
 
   const Expr square = s * s, upper_square = s_upper * s_upper;
   const Expr small =
-      square * square * polynomial(square, table(x, log_f32, log_f64)) + (s + s_upper) * s_lower;
+      square * square * polynomial(square, table(x, log_tail_f32, log_tail_f64)) + (s + s_upper) * s_lower;
   const Expr b_upper = upper_part(3.0 + (upper_square + small));
   const Expr b_lower = small - ((b_upper - 3.0) - upper_square);
 
@@ -86,7 +87,6 @@ Split two_thirds(Expr y) {
 // power (after the pow of fdlibm, 1993). Where it is so large that the power is 0 or infinite, or an
 // operand is, the product of the heads tells.
 Expr pow(Expr x, Expr y) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const auto [rough, log] = split_log(x);
   const Split factor = two_thirds(y);

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "ir/infinity.h"
 
 namespace imp::affine {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Added to the error of all but exact constants, at no cost where a fused addend is free: it pays for so many
 // results that a driver flushes, each at most the smallest normal number.

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 
+#include "ir/infinity.h"
 #include "passes/elementary/bounds.h"
 #include "passes/extend/affine_lines.h"
 #include "passes/extend/affine_rules.h"
@@ -15,8 +15,6 @@ namespace {
 
 using Value = AffineRules::Value;
 using affine::Ends;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double size(const Range& range) { return std::max(std::abs(range.lo), std::abs(range.hi)); }
 

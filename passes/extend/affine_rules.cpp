@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "ir/assert.h"
+#include "ir/infinity.h"
 #include "passes/constants.h"
 #include "passes/extend/forms.h"
 #include "passes/extend/interval.h"
@@ -15,13 +15,12 @@ namespace {
 
 using Value = AffineRules::Value;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr unsigned largest_power = 12;  // beyond it forms overflow before intervals do, and are no tighter
 
 bool is_bounded(const Range& range, Type type) {
   return range.lo <= range.hi && range.bounded_by(affine::safe(type));
 }
-double size(const Range& range) { return std::max(std::abs(range.lo), std::abs(range.hi)); }
+double farthest(const Range& range) { return std::max(std::abs(range.lo), std::abs(range.hi)); }
 
 // The part of `a` where values can be.
 Interval clipped(const Interval& a, const Range& known, Type type) {
@@ -65,7 +64,7 @@ AffineRules::AffineRules(const Program& f, const InputBox& box, bool intersect, 
 Value AffineRules::input(std::size_t i) const {
   const Interval& side = box_.sides[i];
   const Range known = box_.domain.empty() ? everything : box_.domain[i];
-  const double limit = is_bounded(known, side.hi.type()) ? size(known) : infinity;
+  const double limit = is_bounded(known, side.hi.type()) ? farthest(known) : infinity;
   const auto symbol = std::ranges::find(box_.variables, i);
   const auto index = static_cast<std::size_t>(symbol - box_.variables.begin());
   return {affine::of_interval(side, symbols_,
@@ -96,7 +95,7 @@ Value AffineRules::settled(Value value) const {
   const Interval ops = clipped(value.range, value.known, type);
   const bool known = imp::is_bounded(value.known, type);
   const auto interval_form = [&] {
-    return affine::of_interval(ops, symbols_, std::nullopt, known ? size(value.known) : infinity);
+    return affine::of_interval(ops, symbols_, std::nullopt, known ? farthest(value.known) : infinity);
   };
   if (!value.form) {
     value.form = interval_form();
@@ -105,7 +104,7 @@ Value AffineRules::settled(Value value) const {
     return value;
   }
   // A form far beyond all values is worth nothing: without it no part is ever infinite.
-  if (const double enough = 4 * size(value.known) + 1e-20; known && !affine::is_bounded(*value.form)) {
+  if (const double enough = 4 * farthest(value.known) + 1e-20; known && !affine::is_bounded(*value.form)) {
     value.form->limit = infinity;
     value.form = affine::select(affine::magnitude(*value.form) < enough, *value.form, interval_form());
     value.form->limit = 2 * enough;
@@ -192,8 +191,8 @@ Value AffineRules::powi(const Value& a, const Value& exponent) const {
   if (std::abs(n) > largest_power) return only(range);
   const Affine positive = power(*a.form, static_cast<unsigned>(std::abs(n)));
   if (n > 0) return {positive, range, static_cast<int>(n) % 2 == 0};
-  const Interval size = point(constant_like(a.range.hi, -n));
-  return {reciprocal(settled({positive, rules_.powi(a, size)})), range};
+  const Interval farthest = point(constant_like(a.range.hi, -n));
+  return {reciprocal(settled({positive, rules_.powi(a, farthest)})), range};
 }
 
 Value AffineRules::mod(const Value& a, const Value& b) const {

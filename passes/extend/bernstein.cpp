@@ -1,7 +1,6 @@
-#include <limits>
-
-#include "passes/extend/forms.h"
 #include "passes/polynomial/bernstein.h"
+#include "ir/infinity.h"
+#include "passes/extend/forms.h"
 
 namespace imp {
 namespace {
@@ -24,7 +23,7 @@ std::optional<std::vector<Interval>> bernstein_form(const Program& f, const Inpu
     return std::nullopt;
   }
 
-  const Expr all_reals = constant_like(box.sides[0].hi, std::numeric_limits<double>::infinity());
+  const Expr all_reals = constant_like(box.sides[0].hi, infinity);
   Truth finite = truth_of(*all_reals.graph, true);
   for (const std::size_t i : box.variables) {
     const Interval& side = box.sides[i];

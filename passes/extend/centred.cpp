@@ -7,8 +7,8 @@
 namespace imp {
 namespace {
 
-// The middle of [lo, hi]: of what is finite of it, and never outside.
-Expr middle(const Interval& side) {
+// The midpoint of [lo, hi]: of what is finite of it, and never outside.
+Expr midpoint(const Interval& side) {
   const Expr lo = side.lo(), hi = side.hi;
   if (side.facts.bounded) return min(hi, max(lo, 0.5 * lo + 0.5 * hi));
   const double largest = side.hi.type() == f32 ? static_cast<double>(std::numeric_limits<float>::max())
@@ -24,7 +24,7 @@ Centre centre_of(const InputBox& box) {
   Centre result{{box.sides.begin(), box.sides.end()}, {}};
   for (const std::size_t i : box.variables) {
     const Interval& side = box.sides[i];
-    const Expr c = middle(side);
+    const Expr c = midpoint(side);
     result.sides[i] = point(c, {side.facts.nonnegative, true});
     result.radius.push_back(point(max(add_up(side.hi, -c), add_up(c, side.nlo)), {true, side.facts.bounded}));
   }

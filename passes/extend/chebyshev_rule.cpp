@@ -9,6 +9,7 @@
 
 #include "ir/assert.h"
 #include "ir/chebyshev.h"
+#include "ir/infinity.h"
 #include "passes/constants.h"
 #include "passes/extend/chebyshev_extremes.h"
 #include "passes/extend/interval_rules.h"
@@ -16,7 +17,6 @@
 namespace imp {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr unsigned largest_listed_degree = 24;  // docs/decisions/chebyshev.md
 
 unsigned integer(const Interval& constant) {

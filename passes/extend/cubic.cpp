@@ -5,8 +5,8 @@
 //        + [-1, 1] sum |F_ijk(X)| R_i R_j R_k/6        g, H: the derivatives in the middle c, |r_i| <= R_i
 //
 // Of one variable the order is 3. Of several it is 2, as the mixed terms are not taken exactly.
-#include <limits>
 
+#include "ir/infinity.h"
 #include "passes/extend/centred.h"
 #include "passes/extend/forms.h"
 
@@ -21,7 +21,7 @@ Expr parabola_up(const Interval& b, const Interval& k, Expr radius) {
   const Expr at_vertex = div_up(mul_up(half, half), -k.hi);
   const Truth monotone =
       mul_up(mul_up(k.nlo, radius), constant_like(radius, 2)) <= IntervalRules().abs(b).lo();
-  const Expr infinite = constant_like(radius, std::numeric_limits<double>::infinity());
+  const Expr infinite = constant_like(radius, infinity);
   const Truth finite = add_up(add_up(slope, magnitude_of(k).hi), radius) < infinite;
   return select(finite, select(k.hi < 0 && !monotone, at_vertex, at_end), infinite);
 }

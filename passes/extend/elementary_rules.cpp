@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
-#include <limits>
 
+#include "ir/infinity.h"
 #include "ir/meaning.h"
 #include "passes/constants.h"
 #include "passes/elementary/bounds.h"
@@ -12,8 +12,6 @@
 
 namespace imp {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Doubles above pi and its like; the largest double below 1/pi, and the next one.
 constexpr double above_pi = 0x1.921fb54442d19p+1;
@@ -48,15 +46,15 @@ Bounds bounds_at(Op op, std::initializer_list<Expr> args) {
 
 Expr at_most(Expr a, double limit) { return min(rounded_up(*a.graph, a.type(), limit), a); }  // NaN stays
 
-enum class Ends : std::int8_t { closed, open };
+enum class Edges : std::int8_t { closed, open };
 
 // The part of `a` in the domain [lo, hi], or (lo, hi), of a function.
-Interval in_domain(const Interval& a, double lo, double hi, Ends ends = Ends::closed) {
+Interval in_domain(const Interval& a, double lo, double hi, Edges ends = Edges::closed) {
   Interval part = a;
   const auto inside = [&](Expr minus_end, double limit) {
-    return ends == Ends::open ? minus_end < -limit : minus_end <= -limit;
+    return ends == Edges::open ? minus_end < -limit : minus_end <= -limit;
   };
-  if (lo > -infinity && !(lo == 0 && a.facts.nonnegative && ends == Ends::closed)) {
+  if (lo > -infinity && !(lo == 0 && a.facts.nonnegative && ends == Edges::closed)) {
     part.nlo = min(a.nlo, constant_like(a.nlo, -lo));
     part.empty = part.empty || !inside(-a.hi, lo);
     part.continuous = part.continuous && inside(a.nlo, lo);
@@ -123,13 +121,13 @@ Interval IntervalRules::atan(const Interval& a) const {
 }
 
 Interval IntervalRules::log(const Interval& a) const {
-  return increasing(Op::log, in_domain(a, 0, infinity, Ends::open), {});
+  return increasing(Op::log, in_domain(a, 0, infinity, Edges::open), {});
 }
 Interval IntervalRules::acosh(const Interval& a) const {
   return increasing(Op::acosh, in_domain(a, 1, infinity), {true, a.facts.bounded});
 }
 Interval IntervalRules::atanh(const Interval& a) const {
-  return increasing(Op::atanh, in_domain(a, -1, 1, Ends::open), odd(a, false));
+  return increasing(Op::atanh, in_domain(a, -1, 1, Edges::open), odd(a, false));
 }
 Interval IntervalRules::asin(const Interval& a) const {
   return increasing(Op::asin, in_domain(a, -1, 1), odd(a, true), above_pi / 2);

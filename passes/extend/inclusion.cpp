@@ -1,14 +1,12 @@
 #include "passes/extend/inclusion.h"
 
 #include <algorithm>
-#include <limits>
 
+#include "ir/infinity.h"
 #include "passes/extend/forms.h"
 
 namespace imp {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr Inclusion table[] = {
     {"auto", "what is tight for its cost: slopes for polynomials, else intervals and affine forms",
@@ -53,8 +51,7 @@ std::optional<Program> extension(const Program& f, Form& form, Type type, Diagno
     const Interval& value = (*values)[i];
     const std::string& name = f.outputs[i].name;
     const Truth empty = value.empty || no_box;
-    const auto wide = [&](Expr end) { return type == f32 ? widen(end) : end; };
-    const Expr lo = wide(value.lo()), hi = wide(value.hi);
+    const Expr lo = to(f64, value.lo()), hi = to(f64, value.hi);
     const Expr infinite = constant_like(hi, infinity);
     result.outputs.push_back({name + "lo", select(empty, infinite, lo).id});
     result.outputs.push_back({name + "hi", select(empty, -infinite, hi).id});

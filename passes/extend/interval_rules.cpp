@@ -1,15 +1,13 @@
 #include "passes/extend/interval_rules.h"
 
 #include <cmath>
-#include <limits>
 
 #include "ir/addition_chain.h"
 #include "ir/assert.h"
+#include "ir/infinity.h"
 
 namespace imp {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // An interval of known flags; the facts that do not depend on the bounds of others.
 Interval with(const Interval& like, Expr nlo, Expr hi, Facts facts = {}) {

@@ -17,7 +17,7 @@ constexpr double corners[4][3] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 
 using Barycentric = std::array<Interval, 4>;
 
 Interval in_double(const Interval& a) {
-  return a.hi.type() == f64 ? a : Interval{widen(a.nlo), widen(a.hi), a.empty, a.continuous, a.facts};
+  return {to(f64, a.nlo), to(f64, a.hi), a.empty, a.continuous, a.facts};
 }
 
 Interval in_type(const Interval& a, Type type) {

@@ -20,7 +20,7 @@ Degree joined(Degree a, const Degree& b, Join join) {
 }
 
 // One line for each op of which polynomials are made; every other op makes none.
-struct Rules {
+struct DegreeRules {
   using Value = std::optional<Degree>;  // nothing: no polynomial
   double exponent = 0;                  // of the power or Chebyshev polynomial at hand
 
@@ -89,11 +89,12 @@ std::optional<std::vector<Degree>> degrees(const Program& f, std::span<const std
       args.push_back(found[arg.index].degree);
     }
     if (!found[i].degree) continue;
-    Rules rules;
+    DegreeRules rules;
     if (node.op == Op::powi) rules.exponent = f.graph.number(node.args[1]).value();
     if (node.op == Op::chebyshev)
       rules.exponent = f.graph.number(node.args[1]).value() - f.graph.number(node.args[2]).value();
-    found[i] = {apply(rules, node.op, std::span<const Rules::Value>(args)).value_or(std::nullopt), Id{i}};
+    found[i] = {apply(rules, node.op, std::span<const DegreeRules::Value>(args)).value_or(std::nullopt),
+                Id{i}};
   }
 
   std::vector<Degree> result;

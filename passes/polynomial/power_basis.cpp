@@ -9,7 +9,7 @@
 namespace imp {
 namespace {
 
-constexpr std::uint32_t highest_degree = 32;
+constexpr std::uint32_t highest_power = 32;
 constexpr double most_coefficients = 500;  // three variables of degree 12
 
 double coefficients(std::uint32_t degree, std::size_t variables) {
@@ -23,7 +23,7 @@ bool is_small(const Program& f, std::span<const Degree> degrees, std::size_t var
               Diagnostics& diagnostics) {
   for (std::size_t i = 0; i < degrees.size(); ++i) {
     const std::uint32_t n = degrees[i].total;
-    if (n <= highest_degree && coefficients(n, variables) <= most_coefficients) continue;
+    if (n <= highest_power && coefficients(n, variables) <= most_coefficients) continue;
     diagnostics.error(f.graph.span(f.outputs[i].id),
                       "this polynomial of degree " + std::to_string(n) + " has too many coefficients");
     return false;

@@ -17,8 +17,6 @@
 namespace imp {
 namespace {
 
-Expr to_double(Expr value) { return value.type() == f32 ? widen(value) : value; }
-
 // The ranges of the inputs of along_ray(f): s, o, d, uniforms. Both ends of the segment lie in
 // `space`, and rounding may carry them a little beyond it.
 std::vector<Range> ranges_along_ray(const SpaceBounds& space, std::size_t uniforms) {
@@ -117,7 +115,7 @@ struct AlongRay {
   }
 
   Expr newton_in_double(Expr s) const {
-    std::vector<Expr> inputs{to_double(s)};
+    std::vector<Expr> inputs{to(f64, s)};
     for (const Interval& each : wide_bounds) inputs.push_back(0.5 * (each.hi - each.nlo));
     return narrow(inline_program(f_in_double, inputs).front() /
                   inline_program(slope_in_double, inputs).front());

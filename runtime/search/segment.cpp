@@ -1,11 +1,9 @@
 #include "runtime/search/segment.h"
 
-#include <limits>
+#include "ir/infinity.h"
 
 namespace imp {
 namespace {
-
-Expr to_nearest(Expr value, Type type) { return type == f32 ? narrow(value) : value; }
 
 Interval outward(const Interval& wide, Type type) {
   if (type != f32) return wide;
@@ -17,15 +15,15 @@ Interval outward(const Interval& wide, Type type) {
 
 Interval widened(const Interval& a) {
   Interval result = a;
-  if (a.hi.type() == f32) result.nlo = widen(a.nlo), result.hi = widen(a.hi);
+  result.nlo = to(f64, a.nlo), result.hi = to(f64, a.hi);
   return result;
 }
 
-Truth is_finite(Expr value) { return abs(value) < std::numeric_limits<double>::infinity(); }
+Truth is_finite(Expr value) { return abs(value) < infinity; }
 
 // `a` where it was made of finite numbers. Of the others nothing is known, and nothing can be proven.
 Interval where(Truth finite, const Interval& a) {
-  const Expr all_reals = constant_like(a.hi, std::numeric_limits<double>::infinity());
+  const Expr all_reals = constant_like(a.hi, infinity);
   Interval result = a;
   result.nlo = select(finite, a.nlo, all_reals);
   result.hi = select(finite, a.hi, all_reals);
@@ -36,7 +34,7 @@ Interval where(Truth finite, const Interval& a) {
 
 Uniform uniform(Expr value, Type type) {
   const Truth finite = is_finite(value);
-  return {where(finite, outward(point(value), type)), where(finite, point(value)), to_nearest(value, type)};
+  return {where(finite, outward(point(value), type)), where(finite, point(value)), to(type, value)};
 }
 
 Segment segment_of_ray(const std::array<Expr, 3>& o, const std::array<Expr, 3>& d, Expr tmin, Expr tmax,
@@ -53,8 +51,8 @@ Segment segment_of_ray(const std::array<Expr, 3>& o, const std::array<Expr, 3>& 
     segment.direction_bounds[i] = where(finite, outward(along, type));
     segment.wide_origin_bounds[i] = where(finite, near);
     segment.wide_direction_bounds[i] = where(finite, along);
-    segment.origin[i] = to_nearest(o[i] + tmin * d[i], type);
-    segment.direction[i] = to_nearest((tmax - tmin) * d[i], type);
+    segment.origin[i] = to(type, o[i] + tmin * d[i]);
+    segment.direction[i] = to(type, (tmax - tmin) * d[i]);
   }
   segment.exists = !(tmax < tmin);
   return segment;

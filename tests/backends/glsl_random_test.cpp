@@ -21,11 +21,11 @@ Program unfused(const Program& program) {
   return result;
 }
 
-constexpr std::size_t rays = 70;  // more than a work group
+constexpr std::size_t ray_count = 70;  // more than a work group
 
 test::Rays some_rays(const Program& program, std::uint64_t seed) {
   test::Random random(seed);
-  test::Rays data(program, rays);
+  test::Rays data(program, ray_count);
   for (std::size_t i = 0; i < program.inputs.size(); ++i) {
     const Input& input = program.inputs[i];
     const auto value = [&] {
@@ -33,7 +33,7 @@ test::Rays some_rays(const Program& program, std::uint64_t seed) {
       return random.one_in(4) ? test::special_values[random.below(std::size(test::special_values))]
                               : random.between(-4, 4);
     };
-    for (std::size_t k = 0; k < (input.rate == Rate::ray ? rays : std::max(1u, input.type.length)); ++k)
+    for (std::size_t k = 0; k < (input.rate == Rate::ray ? ray_count : std::max(1u, input.type.length)); ++k)
       data.set(i, k, value());
   }
   return data;
@@ -46,7 +46,7 @@ std::string difference(const Program& program, std::uint64_t seed) {
   got.run(**shader);
   expected.run(*interpret(program));
   for (std::size_t i = 0; i < program.outputs.size(); ++i)
-    for (std::size_t ray = 0; ray < rays; ++ray)
+    for (std::size_t ray = 0; ray < ray_count; ++ray)
       if (!test::same_bits(got.get(i, ray), expected.get(i, ray)))
         return "output " + std::to_string(i) + ", ray " + std::to_string(ray) + ": " +
                testing::PrintToString(got.get(i, ray)) + ", not " +

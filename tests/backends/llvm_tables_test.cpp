@@ -1,4 +1,5 @@
 // Tables: in registers, shared by all rays, in scratch memory.
+#include "ir/infinity.h"
 #include "tests/backends/llvm_support.h"
 
 namespace imp {
@@ -7,8 +8,8 @@ namespace {
 Column indices() {
   Column values = ramp(-2, 0.37);
   values[3] = std::numeric_limits<double>::quiet_NaN();
-  values[7] = std::numeric_limits<double>::infinity();
-  values[20] = -std::numeric_limits<double>::infinity();
+  values[7] = infinity;
+  values[20] = -infinity;
   values[21] = -0.5;
   values[22] = 1e30f;
   return values;

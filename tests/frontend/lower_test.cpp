@@ -9,6 +9,7 @@ namespace {
 
 using test::parse;
 using test::root;
+using test::surface;
 
 TEST(Lowering, keeps_numbers_exact) {
   EXPECT_EQ(root("0.1 + 0"), "add div 0");
@@ -48,14 +49,14 @@ TEST(Lowering, of_equations_is_left_minus_right) {
 }
 
 TEST(Lowering, shares_chebyshev_polynomials) {
-  EXPECT_LE(parse("T(1024, x)").surfaces[0].f.graph.size(), 36u);
-  EXPECT_LE(parse("T(1023, x)").surfaces[0].f.graph.size(), 70u);
-  EXPECT_LE(parse("T(1000, x) + T(1000, x)").surfaces[0].f.graph.size(), 60u);
+  EXPECT_LE(surface("T(1024, x)").graph.size(), 36u);
+  EXPECT_LE(surface("T(1023, x)").graph.size(), 70u);
+  EXPECT_LE(surface("T(1000, x) + T(1000, x)").graph.size(), 60u);
 }
 
 TEST(Lowering, keeps_spans_and_names) {
   const std::string text = "s = x^2 + y^2\nsurface a:\n  s*2 = 1";
-  const Program f = parse(text).surfaces[0].f;
+  const Program f = surface(text);
   std::string found;
   for (std::uint32_t i = 0; i < f.graph.size(); ++i) {
     const Span span = f.graph.span(Id{i});

@@ -27,15 +27,18 @@ inline Model parse(std::string_view text) {
   return *std::move(model);
 }
 
-// f of the first surface at a point; parameters and time, if there are any, follow it.
+// f of the first surface.
+inline Program surface(std::string_view text) { return parse(text).surfaces[0].f; }
+
+// Its value at a point; parameters and time, if there are any, follow it.
 inline double value(std::string_view text, std::initializer_list<double> inputs) {
-  return evaluate(parse(text).surfaces[0].f, inputs)[0];
+  return evaluate(surface(text), inputs)[0];
 }
 inline double value(std::string_view text) { return value(text, {2, 3, 5}); }
 
-// f of the first surface as text, the last node only: what a piece of text became.
+// Its last node as text: what a piece of text became.
 inline std::string root(std::string_view text) {
-  const Program f = parse(text).surfaces[0].f;
+  const Program f = surface(text);
   const Node node = f.graph[f.outputs[0].id];
   std::string result(info(node.op).name);
   for (const Id arg : node.args) {

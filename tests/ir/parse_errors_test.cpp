@@ -23,12 +23,12 @@ std::string errors_of(const std::string& text) {
   return all;
 }
 
-struct Case {
+struct Malformed {
   const char* lines;  // of a program with the inputs x (f32), d (f64) and c (truth), from line 5
   const char* errors;
 };
 
-class ParseErrors : public testing::TestWithParam<Case> {};
+class ParseErrors : public testing::TestWithParam<Malformed> {};
 
 TEST_P(ParseErrors, point_at_the_text) {
   const std::string head = "program p\ninput ray x: f32\ninput ray d: f64\ninput ray c: truth\n";
@@ -37,7 +37,7 @@ TEST_P(ParseErrors, point_at_the_text) {
 
 INSTANTIATE_TEST_SUITE_P(
     , ParseErrors,
-    testing::ValuesIn(std::vector<Case>{
+    testing::ValuesIn(std::vector<Malformed>{
         {"%1 = add %x %z", "5:13: unknown name '%z'\n"},
         {"%radius = mul %x %x\n%1 = add %x %radus", "6:13: unknown name '%radus'; did you mean 'radius'?\n"},
         {"%1 = ad %x %x", "5:6: unknown op 'ad'; did you mean 'add'?\n"},

@@ -51,12 +51,12 @@ struct Good {
   Expr result(std::size_t i) { return {&p.graph, state(i).result}; }
 };
 
-struct Case {
+struct Flaw {
   const char* wrong;
   std::function<void(Good&)> spoil;
 };
 
-class Verify : public testing::TestWithParam<Case> {};
+class Verify : public testing::TestWithParam<Flaw> {};
 
 TEST_P(Verify, names_what_is_wrong) {
   Good good;
@@ -67,7 +67,7 @@ TEST_P(Verify, names_what_is_wrong) {
 
 INSTANTIATE_TEST_SUITE_P(
     , Verify,
-    testing::ValuesIn(std::vector<Case>{
+    testing::ValuesIn(std::vector<Flaw>{
         // names
         {"two inputs are called 'x'", [](Good& g) { g.p.inputs[1].name = "x"; }},
         {"two outputs are called 't'", [](Good& g) { output(g.p, "t", g.x); }},

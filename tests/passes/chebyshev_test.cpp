@@ -13,7 +13,7 @@
 namespace imp::test {
 namespace {
 
-constexpr unsigned degrees[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 13, 14, 16, 22, 31, 50};
+constexpr unsigned some_degrees[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 13, 14, 16, 22, 31, 50};
 
 Expr node(Expr x, double n, double k) {
   return make(Op::chebyshev, x, constant_like(x, n), constant_like(x, k));
@@ -33,7 +33,7 @@ int count(const Program& p, Op op) {
 }
 
 TEST(Chebyshev, keeps_bits) {
-  for (const unsigned n : degrees)
+  for (const unsigned n : some_degrees)
     for (unsigned k = 0; k <= std::min(n, 4u); ++k) {
       const Program before = of(n, k), after = reduce_chebyshev(before);
       ASSERT_EQ(verify(after), "");
@@ -50,7 +50,7 @@ TEST(Chebyshev, keeps_bits) {
 TEST(Chebyshev, is_what_its_meaning_says) {
   Random random(0xc4eb);
   for (const Type type : {f32, f64})
-    for (const unsigned n : degrees) {
+    for (const unsigned n : some_degrees) {
       const Program p = of(n, 0, type);
       const double ulp = type == f32 ? 0x1p-23 : 0x1p-52;
       for (int i = 0; i < 200; ++i) {
@@ -64,7 +64,7 @@ TEST(Chebyshev, is_what_its_meaning_says) {
 
 TEST(Chebyshev, derivatives_are_chebyshev_too) {
   Random random(0xd1f);
-  for (const unsigned n : degrees) {
+  for (const unsigned n : some_degrees) {
     Program p = of(n, 0);
     Diagnostics diagnostics;
     static constexpr std::string_view x[] = {"x"};

@@ -18,7 +18,7 @@ namespace {
 using test::evaluate;
 
 // A surface under construction.
-struct Built {
+struct BuiltSurface {
   Program p;
   Expr x{&p.graph, add_input(p, "x", f64, Rate::ray)};
   Expr y{&p.graph, add_input(p, "y", f64, Rate::ray)};
@@ -134,7 +134,7 @@ TEST(Differentiate, every_op) {
   test::Random random(5);
   for (const Op op : differentiable) {
     for (int round = 0; round < 8; ++round) {
-      Built b;
+      BuiltSurface b;
       const auto [lo, hi] = domain(op);
       const Point at{random.between(lo, hi), random.between(lo, hi), random.between(lo, hi)};
       const std::array<Expr, 3> variables{b.x, b.y, b.z};
@@ -149,13 +149,13 @@ TEST(Differentiate, every_op) {
 TEST(Differentiate, powers) {
   test::Random random(6);
   for (const double n : {-1048576.0, -3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0, 4.0, 7.0, 0.5, 1.5, -0.5}) {
-    Built b;
+    BuiltSurface b;
     const bool whole = n == std::floor(n);
     const Point at{n < -10 ? 1.000001 : random.between(0.5, 2), random.between(0.5, 2), 0};
     expect_derivatives(b.with(make(Op::pow, b.x, b.k(n)) * b.y), at, "pow");
     if (whole) expect_derivatives(b.with(make(Op::powi, b.x, b.k(n)) * b.y), at, "powi");
   }
-  Built b;
+  BuiltSurface b;
   expect_derivatives(b.with(make(Op::pow, b.k(2), b.x) + make(Op::pow, b.x, b.y * b.z)), {1.3, 0.7, 2},
                      "x^y");
 }
@@ -164,7 +164,7 @@ TEST(Differentiate, powers) {
 TEST(Differentiate, compositions) {
   for (std::uint64_t seed = 1; seed <= 150; ++seed) {
     test::Random random(seed);
-    Built b;
+    BuiltSurface b;
     std::vector<Expr> known{b.x, b.y, b.z, b.k(0.75), b.k(2)};
     const auto any = [&] { return known[random.below(known.size())]; };
     const auto tame = [&](Expr e) { return make(Op::tanh, e); };
@@ -199,7 +199,7 @@ TEST(Differentiate, compositions) {
 std::vector<double> slopes(const Program& f, Point at) { return evaluate(gradient_of(f), at); }
 
 TEST(Differentiate, the_branch_not_taken_is_zero) {
-  Built b;
+  BuiltSurface b;
   const Program& f = b.with(make(Op::acosh, max(b.k(1), abs(b.x))));
   EXPECT_EQ(slopes(f, {0, 0, 0})[1], 0);
   EXPECT_EQ(slopes(f, {0.5, 0, 0})[1], 0);
@@ -210,7 +210,7 @@ TEST(Differentiate, the_branch_not_taken_is_zero) {
 }
 
 TEST(Differentiate, the_branch_not_taken_is_zero_in_sums_and_products) {
-  Built b;
+  BuiltSurface b;
   const Expr pole = make(Op::log, max(b.k(0), b.x));  // -inf, and so the factor of its derivative
   const Program& f = b.with(select(b.x > 0.0, pole * b.y, b.k(3)) + b.y * b.y + max(b.x, b.k(0)) * b.y);
   const auto left = slopes(f, {-1, 2, 0});
@@ -223,7 +223,7 @@ TEST(Differentiate, the_branch_not_taken_is_zero_in_sums_and_products) {
 }
 
 TEST(Differentiate, ties_follow_the_value) {
-  Built b;  // min is a < b ? a : b, so b at a tie; abs is a < 0 ? -a : a
+  BuiltSurface b;  // min is a < b ? a : b, so b at a tie; abs is a < 0 ? -a : a
   EXPECT_EQ(slopes(b.with(min(b.x, b.y)), {1, 1, 0}), (std::vector<double>{1, 0, 1, 0}));
   EXPECT_EQ(slopes(b.with(max(b.x, b.y)), {1, 1, 0}), (std::vector<double>{1, 0, 1, 0}));
   EXPECT_EQ(slopes(b.with(abs(b.x)), {0, 0, 0}), (std::vector<double>{0, 1, 0, 0}));
@@ -233,7 +233,7 @@ TEST(Differentiate, ties_follow_the_value) {
 }
 
 TEST(Differentiate, zero_to_a_power) {
-  Built b;
+  BuiltSurface b;
   EXPECT_EQ(slopes(b.with(make(Op::pow, b.x, b.y)), {0, 2, 0}), (std::vector<double>{0, 0, 0, 0}));
   EXPECT_EQ(slopes(b.with(make(Op::pow, b.x, b.k(0))), {0, 0, 0}), (std::vector<double>{1, 0, 0, 0}));
   EXPECT_EQ(slopes(b.with(make(Op::pow, b.x, b.k(1))), {0, 0, 0}), (std::vector<double>{0, 1, 0, 0}));
@@ -242,7 +242,7 @@ TEST(Differentiate, zero_to_a_power) {
 std::size_t size_of(const Program& p) { return compact(p).graph.size(); }
 
 TEST(Differentiate, no_idle_work) {
-  Built b;
+  BuiltSurface b;
   const Program linear = gradient_of(b.with(3.0 * b.x + b.y * b.z - b.k(7)));
   EXPECT_EQ(linear.graph.number(linear.output("fx")->id), 3.0) << to_text(linear);
   EXPECT_EQ(linear.output("fy")->id, linear.input("z")->id);
@@ -261,7 +261,7 @@ TEST(Differentiate, no_idle_work) {
 }
 
 TEST(Differentiate, outputs_have_names_in_order) {
-  Built b;
+  BuiltSurface b;
   const Program h = hessian_of(b.with(b.x * b.y * b.z));
   std::vector<std::string> names;
   for (const Output& output : h.outputs) names.push_back(output.name);
@@ -282,7 +282,7 @@ TEST(Differentiate, outputs_have_names_in_order) {
 }
 
 TEST(Differentiate, what_has_no_derivative_is_told) {
-  Built b;
+  BuiltSurface b;
   const Expr e = make(Op::exponent, b.x);
   b.p.graph.set_span(e.id, {0, 14, 25});
   Diagnostics diagnostics;
@@ -308,7 +308,7 @@ TEST(Differentiate, what_has_no_derivative_is_told) {
 }
 
 TEST(Differentiate, spans_are_those_of_the_formula) {
-  Built b;
+  BuiltSurface b;
   const Expr e = make(Op::sin, b.x * b.y);
   b.p.graph.set_span(e.id, {0, 3, 9});
   const Program g = gradient_of(b.with(e));

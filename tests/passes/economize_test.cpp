@@ -13,8 +13,6 @@
 namespace imp::test {
 namespace {
 
-Program surface(const std::string& text) { return parse(text).surfaces[0].f; }
-
 // Of the first input, where all of f is one polynomial in each.
 std::size_t degree(const Program& f) {
   const auto views = sums_of_polynomials(f, 3);

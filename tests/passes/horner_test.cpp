@@ -16,6 +16,7 @@ namespace imp {
 namespace {
 
 using test::cost;
+using test::power;
 
 struct Formula {
   Program program;
@@ -24,8 +25,6 @@ struct Formula {
 
   void is(Expr f) { test::output(program, "f", f); }
 };
-
-Expr power(Expr x, int n) { return make(Op::powi, x, constant_like(x, n)); }
 
 template <class Build>
 Program formula(Build build) {

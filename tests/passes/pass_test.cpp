@@ -27,14 +27,14 @@ bool has(const Program& p, Op op) {
   return false;
 }
 
-constexpr Pass two[] = {{"powers", Preserves::bits, reduce_powers},
-                        {"canonicalize", Preserves::bits, canonicalize}};
+constexpr Pass two_passes[] = {{"powers", Preserves::bits, reduce_powers},
+                               {"canonicalize", Preserves::bits, canonicalize}};
 
 TEST(Pass, tells_what_it_did) {
   std::ostringstream text;
   PassTrace trace;
   trace.text = &text;
-  run_passes(cube(), two, &trace);
+  run_passes(cube(), two_passes, &trace);
   ASSERT_EQ(trace.times.size(), 2u);
   EXPECT_EQ(trace.times[0].name, "powers");
   EXPECT_TRUE(trace.times[0].changed);
@@ -51,7 +51,7 @@ TEST(Pass, prints_only_what_was_asked_for) {
   PassTrace trace;
   trace.text = &text;
   trace.print_after = "canonicalize";
-  run_passes(cube(), two, &trace);
+  run_passes(cube(), two_passes, &trace);
   EXPECT_TRUE(text.str().starts_with("== canonicalize\n")) << text.str();  // though it changed nothing
   EXPECT_FALSE(text.str().contains("== powers")) << text.str();
 }

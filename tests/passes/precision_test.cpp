@@ -13,7 +13,8 @@ namespace {
 
 using test::evaluate;
 
-struct Built {
+// A formula of x under construction.
+struct BuiltFormula {
   Program p;
   Expr x{&p.graph, add_input(p, "x", f64, Rate::ray)};
   Expr k(double value) { return constant_like(x, value); }
@@ -24,7 +25,7 @@ struct Built {
 };
 
 TEST(Precision, constants_become_the_nearest_number) {
-  Built b;
+  BuiltFormula b;
   const Program p = b.with(b.x * ((1.0 + sqrt(b.k(5))) / 2.0) + 1.0 / b.k(10));
   const Program in_double = in_precision(p, f64), in_float = in_precision(p, f32);
   EXPECT_EQ(verify(in_double), "");
@@ -38,14 +39,14 @@ TEST(Precision, constants_become_the_nearest_number) {
 }
 
 TEST(Precision, a_constant_output_is_a_constant) {
-  Built b;
+  BuiltFormula b;
   const Program p = in_precision(b.with(sqrt(b.k(2))), f32);
   EXPECT_EQ(p.graph[p.outputs[0].id].op, Op::constant);
   EXPECT_EQ(evaluate(p, {0.0})[0], 1.41421356f);
 }
 
 TEST(Precision, conditions_on_constants_are_decided) {
-  Built b;
+  BuiltFormula b;
   const Expr two = b.k(2);
   const Expr root = sqrt(two);
   const Expr f = select(root * root <= two, b.x, -b.x) + select(root < 1.5, b.k(10), b.x);
@@ -55,7 +56,7 @@ TEST(Precision, conditions_on_constants_are_decided) {
 }
 
 TEST(Precision, conversions_vanish) {
-  Built b;
+  BuiltFormula b;
   const Program p = in_precision(b.with(widen(narrow(b.x)) * 3.0), f32);
   EXPECT_EQ(verify(p), "");
   EXPECT_EQ(p.graph.size(), 3u);
@@ -83,20 +84,20 @@ TEST(Precision, phases_and_callees_follow) {
 }
 
 TEST(Precision, is_settled_at_once) {
-  Built b;
+  BuiltFormula b;
   const Program p = in_precision(b.with(b.x * sqrt(b.k(5))), f32);
   EXPECT_TRUE(in_precision(p, f32) == p);
 }
 
 TEST(Precision, a_choice_between_equal_constants_is_one) {
-  Built b;
+  BuiltFormula b;
   const Expr either = select(b.x < 0.0, 1.0 / b.k(10), 2.0 / b.k(20));
   const Program p = in_precision(b.with(b.x + make(Op::exp, either)), f64);
   EXPECT_EQ(p.graph.size(), 3u) << to_text(p);
 }
 
 TEST(Precision, zeros_keep_their_sign_and_infinities_stay) {
-  Built b;
+  BuiltFormula b;
   const Program p = in_precision(b.with(min(b.x * -0.0, b.k(INFINITY))), f32);
   EXPECT_TRUE(std::signbit(evaluate(p, {1.0})[0]));
   EXPECT_EQ(evaluate(p, {NAN})[0], INFINITY);

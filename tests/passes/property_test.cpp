@@ -1,20 +1,19 @@
-// What passes promise, on random Programs: the same bits, a fixed point, a legal result. What fails is
-// shrunk and printed as text to be pasted into a test.
+// What passes promise, on random Programs: the same bits, a fixed point, a legal result.
 #include <gtest/gtest.h>
 
-#include "ir/text.h"
 #include "passes/canonicalize.h"
 #include "passes/pass.h"
 #include "passes/power.h"
 #include "passes/precision.h"
 #include "passes/rewrite.h"
+#include "tests/passes/promise.h"
 #include "tests/support/evaluate.h"
-#include "tests/support/random_program.h"
 
 namespace imp {
 namespace {
 
 using test::evaluate;
+using test::Promise;
 using test::RandomOptions;
 
 // All kernel passes that promise bits: that is, but for the one that lowers elementary functions.
@@ -27,12 +26,6 @@ Program kernel_passes_on_bits(const Program& p) {
 Program copied(const Program& p) {
   return rewrite(p, [](Graph& graph, Id, const Node& node) { return copy(graph, node); });
 }
-
-struct Promise {
-  const char* name;
-  Program (*run)(const Program&);
-};
-void PrintTo(const Promise& promise, std::ostream* out) { *out << promise.name; }
 
 std::vector<double> inputs_of(const Program& p, std::uint64_t seed) {
   test::Random random(seed);
@@ -56,7 +49,7 @@ bool same_outputs(const Program& p, const Program& q) {
   return true;
 }
 
-class Keeps : public testing::TestWithParam<Promise> {
+class Keeps : public test::Promises {
  protected:
   void expect(const RandomOptions& options, std::uint64_t seeds) {
     const auto run = GetParam().run;
@@ -73,16 +66,6 @@ class Keeps : public testing::TestWithParam<Promise> {
       report("no fixed point", seed, p, moving);
       if (HasFailure()) return;
     }
-  }
-
- private:
-  void report(const char* what, std::uint64_t seed, const Program& p,
-              const std::function<bool(const Program&)>& fails) {
-    if (!fails(p)) return;
-    const Program small = test::shrink(p, fails);
-    ADD_FAILURE() << what << ", seed " << seed << '\n'
-                  << to_text(small) << "becomes\n"
-                  << to_text(GetParam().run(small));
   }
 };
 

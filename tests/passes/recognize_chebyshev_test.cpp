@@ -33,8 +33,6 @@ Found found(const Program& p) {
   return result;
 }
 
-Program surface(const std::string& text) { return parse(text).surfaces[0].f; }
-
 void expect_degrees(const std::string& text, std::multiset<unsigned> degrees, int products = 0) {
   const Program before = surface(text), after = recognize_chebyshev(before);
   ASSERT_EQ(verify(after), "");

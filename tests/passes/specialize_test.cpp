@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <functional>
 
 #include "ir/text.h"
 #include "ir/verify.h"
@@ -13,19 +12,10 @@
 #include "tests/support/composer.h"
 #include "tests/support/cost.h"
 #include "tests/support/exact.h"
-#include "tests/support/make.h"
+#include "tests/support/formula.h"
 
 namespace imp::test {
 namespace {
-
-using Formula = std::function<Expr(Expr, Expr)>;
-
-Program program_of(const Formula& formula) {
-  Program f{.name = "f"};
-  const Expr x = input(f, "x", f64), y = input(f, "y", f64);
-  output(f, "f", formula(x, y));
-  return f;
-}
 
 struct Example {
   Formula formula, expected;

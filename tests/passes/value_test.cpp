@@ -1,22 +1,17 @@
 // What passes promise that keep the value, on random Programs: the same real number, a legal result, a fixed
-// point. What fails is shrunk and printed as text to be pasted into a test.
+// point.
 #include <gtest/gtest.h>
 
-#include "ir/text.h"
 #include "passes/horner.h"
 #include "passes/reassociate.h"
-#include "tests/support/exact_value.h"
-#include "tests/support/random_program.h"
+#include "tests/passes/promise.h"
+#include "tests/support/exact.h"
 #include "tests/support/random_sums.h"
 
 namespace imp {
 namespace {
 
-struct Promise {
-  const char* name;
-  Program (*run)(const Program&);
-};
-void PrintTo(const Promise& promise, std::ostream* out) { *out << promise.name; }
+using test::Promise;
 
 bool same_values(const Program& p, const Program& q) {
   test::Random random(7);
@@ -31,7 +26,7 @@ bool same_values(const Program& p, const Program& q) {
   return true;
 }
 
-class KeepsValue : public testing::TestWithParam<Promise> {
+class KeepsValue : public test::Promises {
  protected:
   void expect(std::uint64_t seed, const Program& p) {
     const auto run = GetParam().run;
@@ -41,16 +36,6 @@ class KeepsValue : public testing::TestWithParam<Promise> {
       const Program once = run(q);
       return !(run(once) == once);
     });
-  }
-
- private:
-  void report(const char* what, std::uint64_t seed, const Program& p,
-              const std::function<bool(const Program&)>& fails) {
-    if (!fails(p)) return;
-    const Program small = test::shrink(p, fails);
-    ADD_FAILURE() << what << ", seed " << seed << '\n'
-                  << to_text(small) << "becomes\n"
-                  << to_text(GetParam().run(small));
   }
 };
 

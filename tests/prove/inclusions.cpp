@@ -9,15 +9,16 @@
 namespace imp::prove {
 namespace {
 
-constexpr std::uint64_t batch = 5000;
+constexpr std::uint64_t samples_at_once = 5000;
 
 std::string row_text(const test::OpForm& op, const Inclusion& form, Type type, std::uint64_t samples) {
   const std::string head =
       fmt::format("| {} | {} | {} |", op.name, form.name, type == f32 ? "float" : "double");
   const test::InclusionTrial trial(op, {&form, 1}, type);
   if (trial.forms() == 0) return head + " | | | | | no rule |";
-  const auto count = on_all_cores<test::InclusionCount>(
-      (samples + batch - 1) / batch, [&](std::uint64_t i) { return trial.run(i, batch)[0]; });
+  const auto count =
+      on_all_cores<test::InclusionCount>((samples + samples_at_once - 1) / samples_at_once,
+                                         [&](std::uint64_t i) { return trial.run(i, samples_at_once)[0]; });
   if (!count.first.empty()) fmt::print(stderr, "wrong, the first: {}\n", count.first);
   const std::string width = count.width.total() == 0
                                 ? " | |"

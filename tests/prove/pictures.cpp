@@ -17,7 +17,7 @@ bool contradict(float a, float b) {
   return (a == verdict_hit && b == verdict_miss) || (a == verdict_miss && b == verdict_hit);
 }
 
-std::string row_text(const test::SurfaceEntry& entry, std::size_t size) {
+std::string picture_row(const test::SurfaceEntry& entry, std::size_t size) {
   const Model model = test::model_of(entry);
   RenderOptions options = test::sized(size, size);
   options.depth = true;
@@ -54,7 +54,7 @@ bool pictures(const PictureOptions& options) {
   for (const test::SurfaceEntry& entry : test::catalogue()) {
     if (!options.only.empty() && std::ranges::find(options.only, entry.id) == options.only.end()) continue;
     const std::string text = row(options.done, fmt::format("glsl-{}-{}", entry.id, options.size),
-                                 [&] { return row_text(entry, options.size); });
+                                 [&] { return picture_row(entry, options.size); });
     all_hold &= !text.ends_with("FAILS |");
   }
   return all_hold;

@@ -14,7 +14,7 @@ namespace {
 
 using test::Judgement;
 
-constexpr std::size_t batch = 200;  // rays
+constexpr std::size_t rays_at_once = 200;  // rays
 
 // The answers of one way to search, counted.
 struct Count {
@@ -56,10 +56,10 @@ struct Trials {
 class Bench {
  public:
   Bench(const test::SurfaceEntry& entry, std::size_t rays) : model_(test::model_of(entry)), judge_(model_) {
-    trials_ = on_all_cores<Trials>((rays + batch - 1) / batch, [&](std::uint64_t number) {
+    trials_ = on_all_cores<Trials>((rays + rays_at_once - 1) / rays_at_once, [&](std::uint64_t number) {
       test::RandomRays random(entry.domain, number);
       std::vector<Trial> trials;
-      for (std::size_t i = number * batch; i < std::min(rays, (number + 1) * batch); ++i) {
+      for (std::size_t i = number * rays_at_once; i < std::min(rays, (number + 1) * rays_at_once); ++i) {
         const test::Ray ray = random.next(judge_.dense());
         trials.push_back({ray, judge_.roots(ray)});
       }

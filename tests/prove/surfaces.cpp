@@ -7,10 +7,10 @@
 namespace imp::prove {
 namespace {
 
-constexpr std::uint64_t batch = 100;
+constexpr std::uint64_t boxes_at_once = 100;
 constexpr std::size_t points_a_box = 4;
 
-std::string row_text(const test::SurfaceEntry& entry, std::uint64_t samples) {
+std::string surface_row(const test::SurfaceEntry& entry, std::uint64_t samples) {
   const test::TriedSurface surface(entry);
   std::vector<std::unique_ptr<Kernel>> kernels;
   std::vector<const Kernel*> tried;
@@ -27,9 +27,10 @@ std::string row_text(const test::SurfaceEntry& entry, std::uint64_t samples) {
     std::string& list = both ? names : without;
     list += (list.empty() ? "" : ", ") + std::string(form.name);
   }
-  const auto count = on_all_cores<test::SurfaceCount>((samples + batch - 1) / batch, [&](std::uint64_t seed) {
-    return test::try_surface(surface, tried, seed, batch, points_a_box);
-  });
+  const auto count = on_all_cores<test::SurfaceCount>(
+      (samples + boxes_at_once - 1) / boxes_at_once, [&](std::uint64_t seed) {
+        return test::try_surface(surface, tried, seed, boxes_at_once, points_a_box);
+      });
   if (!count.first.empty()) fmt::print(stderr, "{}, wrong, the first: {}\n", entry.id, count.first);
   return fmt::format("| {} | {} | {} | {} | {} | {} | {} |", entry.id, names, without, count.boxes,
                      count.values, count.misses + count.overclaimed,
@@ -47,7 +48,7 @@ bool surfaces(const SurfaceOptions& options) {
     const std::string key =
         fmt::format("surface-{}-{}-{}", entry.id, imp::inclusions().size(), options.samples);
     all_hold &=
-        !row(options.done, key, [&] { return row_text(entry, options.samples); }).ends_with("FAILS |");
+        !row(options.done, key, [&] { return surface_row(entry, options.samples); }).ends_with("FAILS |");
   }
   return all_hold;
 }

@@ -5,6 +5,7 @@
 
 #include <map>
 
+#include "tests/runtime/hard_surfaces.h"
 #include "tests/support/aimed_rays.h"
 #include "tests/support/judge.h"
 #include "tests/support/real_roots.h"
@@ -14,9 +15,18 @@ namespace imp {
 namespace {
 
 using test::Answer;
+using test::ball;
+using test::double_pole;
+using test::kissing_balls;
+using test::pole;
 using test::Ray;
+using test::shell;
+using test::steiner;
+using test::teardrop;
+using test::umbrella;
 
-struct Scene {
+// A scene, and where rays are hardest.
+struct HardPlace {
   const char* name;
   const char* source;
   std::array<double, 3> place;
@@ -26,13 +36,13 @@ struct Scene {
       zeros{};  // a polynomial with the same zeros, or what is easier to sample; null: the surface itself
 };
 
-void PrintTo(const Scene& scene, std::ostream* out) { *out << scene.name; }
-std::string name_of(const testing::TestParamInfo<Scene>& test) { return test.param.name; }
+void PrintTo(const HardPlace& scene, std::ostream* out) { *out << scene.name; }
+std::string place_name(const testing::TestParamInfo<HardPlace>& test) { return test.param.name; }
 
 constexpr std::size_t rays_a_scene = test::effort(200);
 
 template <class Mistake>
-void expect_no_mistake(const Scene& scene, const std::vector<Ray>& rays, Mistake mistake) {
+void expect_no_mistake(const HardPlace& scene, const std::vector<Ray>& rays, Mistake mistake) {
   const Model model = test::model_of(scene.source);
   for (const test::Way& way : test::ways({"auto", "ia"})) {
     const auto cast = test::caster(model, way);
@@ -60,11 +70,6 @@ void expect_no_mistake(const Scene& scene, const std::vector<Ray>& rays, Mistake
   }
 }
 
-constexpr const char* kissing_balls = "((x-1)^2 + y^2 + z^2 - 1)*((x+1)^2 + y^2 + z^2 - 1)";
-constexpr const char* shell = "(x^2 + y^2 + z^2 - 1)*(x^2 + y^2 + z^2 - 0.9998)";
-constexpr const char* umbrella = "x^2 - y^2*z";
-constexpr const char* steiner = "x^2*y^2 + y^2*z^2 + z^2*x^2 + x*y*z";
-constexpr const char* teardrop = "(x^5 + x^4)/2 - y^2 - z^2";
 constexpr const char* cayley = "2*(x*y + y*z + z*x) = 5*(x^2*(y + z) + y^2*(z + x) + z^2*(x + y))";
 constexpr const char*
     clebsch =  // three times as large as usual, so that its rational lines are of whole numbers
@@ -74,10 +79,10 @@ constexpr const char* nearly_barth =  // tau is a double, so the nodes are a lit
     "4*(t^2*x^2 - y^2)*(t^2*y^2 - z^2)*(t^2*z^2 - x^2) - (1 + 2*t)*(x^2 + y^2 + z^2 - 1)^2\nt = "
     "13254217/8191557";
 
-class Polynomials : public testing::TestWithParam<Scene> {};
+class Polynomials : public testing::TestWithParam<HardPlace> {};
 
 TEST_P(Polynomials, are_answered_right) {
-  const Scene& scene = GetParam();
+  const HardPlace& scene = GetParam();
   const Model zeros = test::model_of(scene.zeros ? scene.zeros : scene.source);
   expect_no_mistake(scene, test::rays_at(scene.place, scene.scale, rays_a_scene, 3),
                     [&](const Ray& ray, const Answer& answer) {
@@ -85,7 +90,7 @@ TEST_P(Polynomials, are_answered_right) {
                     });
 }
 
-const Scene polynomials[] = {
+const HardPlace polynomials[] = {
     {"kissing_balls", kissing_balls, {0, 0, 0}, 1, 0.5},
     {"kissing_balls_close_up", kissing_balls, {0, 0, 0}, 1e-3, 0.4},
     {"balls_a_millionth_apart",
@@ -95,7 +100,7 @@ const Scene polynomials[] = {
      0.5},
     {"thin_shell", shell, {0.6, 0.8, 0}, 1, 0.5},
     {"thin_shell_close_up", shell, {0.6, 0.8, 0}, 1e-3, 0.5},
-    {"ball_close_up", "x^2 + y^2 + z^2 = 1", {0.6, 0.8, 0}, 1e-4, 0.5},
+    {"ball_close_up", ball, {0.6, 0.8, 0}, 1e-4, 0.5},
     {"umbrella_handle", umbrella, {0, 0, -1}, 1, 0.5},
     {"umbrella_pinch", umbrella, {0, 0, 0}, 1e-3, 0.5},
     {"steiner_axis", steiner, {0, 0, 0.25}, 0.5, 0.5},
@@ -105,9 +110,9 @@ const Scene polynomials[] = {
     {"cayley_node", cayley, {0, 0, 0}, 1e-3, 0.5},
     {"clebsch", clebsch, {0, 0.5, 0.5}, 1, 0.5},
     {"barth_node", nearly_barth, {1, 1, 1}, 1e-3, 0.5},
-    {"pole", "1/x + y + z", {0, 0, 0}, 1, 0.5, "1 + x*(y + z)"},
-    {"pole_close_up", "1/x + y + z", {0, 0, 0}, 1e-3, 0.5, "1 + x*(y + z)"},
-    {"double_pole", "1/x^2 + y", {0, -1, 0}, 1, 0.1, "1 + x^2*y"},
+    {"pole", pole, {0, 0, 0}, 1, 0.5, "1 + x*(y + z)"},
+    {"pole_close_up", pole, {0, 0, 0}, 1e-3, 0.5, "1 + x*(y + z)"},
+    {"double_pole", double_pole, {0, -1, 0}, 1, 0.1, "1 + x^2*y"},
     {"beyond_float", "1e30*x^5*y^4 + 1e30*z = 1e29", {0, 0, 0}, 1e2, 0.1, "10*x^5*y^4 + 10*z - 1"},
     {"below_float", "1e-30*(x^2*y^2 + z^4) = 1e-31", {0, 0, 0}, 1, 0.5, "10*(x^2*y^2 + z^4) - 1"},
     {"triple_plane", "(x + y/3)^3", {0, 0, 0}, 1, 0.5},
@@ -115,12 +120,12 @@ const Scene polynomials[] = {
     {"a_product_of_planes", "x*(x - 1e-5)*y*(y + 1e-5)*z", {0, 0, 0}, 1, 0.3},
 };
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Polynomials, testing::ValuesIn(polynomials), name_of);
+INSTANTIATE_TEST_SUITE_P(Scenes, Polynomials, testing::ValuesIn(polynomials), place_name);
 
-class Samples : public testing::TestWithParam<Scene> {};
+class Samples : public testing::TestWithParam<HardPlace> {};
 
 TEST_P(Samples, are_answered_right) {
-  const Scene& scene = GetParam();
+  const HardPlace& scene = GetParam();
   const test::Judge judge(test::model_of(scene.zeros ? scene.zeros : scene.source));
   expect_no_mistake(scene, test::rays_at(scene.place, scene.scale, rays_a_scene, 4),
                     [&](const Ray& ray, const Answer& answer) {
@@ -129,7 +134,7 @@ TEST_P(Samples, are_answered_right) {
                     });
 }
 
-const Scene others[] = {
+const HardPlace others[] = {
     {"tan", "tan(x) + y", {M_PI / 2, 0, 0}, 1, 0.5, "sin(x) + y*cos(x)"},
     {"tan_close_up", "tan(x) + y", {M_PI / 2, 0, 0}, 1e-3, 0.5, "sin(x) + y*cos(x)"},
     {"reciprocal_of_a_sine", "1/sin(x) + y", {0, 0, 0}, 1, 0.5, "1 + y*sin(x)"},
@@ -154,7 +159,7 @@ const Scene others[] = {
     {"fast_waves", "sin(200*x) + y", {0, 0, 0}, 0.1, 0.2},
 };
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Samples, testing::ValuesIn(others), name_of);
+INSTANTIATE_TEST_SUITE_P(Scenes, Samples, testing::ValuesIn(others), place_name);
 
 // Lines that lie in a cubic: f is 0 all along, or nearly, where the line is not of doubles.
 TEST(Lines, are_not_certified) {
@@ -201,7 +206,7 @@ TEST(Lines, are_not_certified) {
 
 // Rays that pass the middle of a ball at 1 + 2^-k and 1 - 2^-k.
 TEST(Grazing, a_ball) {
-  const Model model = test::model_of("x^2 + y^2 + z^2 = 1");
+  const Model model = test::model_of(ball);
   std::vector<Ray> rays;
   for (int k = 1; k < 60; ++k)
     for (const double sign : {-1.0, 1.0}) {

@@ -8,10 +8,6 @@
 namespace imp {
 namespace {
 
-bool contradict(double a, double b) {
-  return (a == verdict_hit && b == verdict_miss) || (a == verdict_miss && b == verdict_hit);
-}
-
 // By `search` behind beams and without them. 70 and 50 are no multiples of a cell.
 void compare(const Model& model, const char* search) {
   RenderOptions options = test::sized(70, 50);
@@ -21,7 +17,7 @@ void compare(const Model& model, const char* search) {
   options.tiles = false;
   const Picture rays = test::render(model, options);
   for (std::size_t i = 0; i < rays.verdict.size(); ++i) {
-    EXPECT_FALSE(contradict(tiled.verdict[i], rays.verdict[i])) << "pixel " << i;
+    EXPECT_FALSE(test::contradict(tiled.verdict[i], rays.verdict[i])) << "pixel " << i;
     if (tiled.verdict[i] == verdict_hit && rays.verdict[i] == verdict_hit) {
       EXPECT_NEAR(tiled.depth[i], rays.depth[i], 1e-3F * rays.depth[i]) << "pixel " << i;
     }

@@ -64,7 +64,7 @@ class Elementary : public testing::TestWithParam<std::tuple<Op, Type, bool>> {
   }
 };
 
-std::string name_of(const testing::TestParamInfo<std::tuple<Op, Type, bool>>& test) {
+std::string function_name(const testing::TestParamInfo<std::tuple<Op, Type, bool>>& test) {
   const auto [op, type, upward] = test.param;
   return std::string(info(op).name) + (type == f32 ? "_f32" : "_f64") + (upward ? "_upward" : "_nearest");
 }
@@ -72,7 +72,7 @@ std::string name_of(const testing::TestParamInfo<std::tuple<Op, Type, bool>>& te
 INSTANTIATE_TEST_SUITE_P(Functions, Elementary,
                          testing::Combine(testing::ValuesIn(test::elementary_ops()),
                                           testing::Values(f32, f64), testing::Bool()),
-                         name_of);
+                         function_name);
 
 TEST_P(Elementary, is_within_its_bound) {
   const FunctionKernel kernel(op(), type(), upward());

@@ -4,14 +4,23 @@
 #include <limits>
 #include <map>
 
+#include "ir/infinity.h"
+#include "tests/runtime/hard_surfaces.h"
 #include "tests/support/cast.h"
 
 namespace imp {
 namespace {
 
+using test::ball;
+using test::double_pole;
+using test::kissing_balls;
+using test::pole;
 using test::Ray;
+using test::shell;
+using test::steiner;
+using test::teardrop;
+using test::umbrella;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 struct Row {
@@ -28,23 +37,15 @@ Ray along_x(double x, double y, double z, double tmax) { return {{x, y, z}, {1, 
 Ray along_y(double x, double y, double z, double tmax) { return {{x, y, z}, {0, 1, 0}, 0, tmax}; }
 Ray along_z(double x, double y, double z, double tmax) { return {{x, y, z}, {0, 0, 1}, 0, tmax}; }
 
-constexpr const char* ball = "x^2 + y^2 + z^2 = 1";
-constexpr const char* kissing_balls = "((x-1)^2 + y^2 + z^2 - 1)*((x+1)^2 + y^2 + z^2 - 1)";
-constexpr const char* shell = "(x^2 + y^2 + z^2 - 1)*(x^2 + y^2 + z^2 - 0.9998)";
-constexpr const char* umbrella = "x^2 - y^2*z";
-constexpr const char* steiner = "x^2*y^2 + y^2*z^2 + z^2*x^2 + x*y*z";
-constexpr const char* teardrop = "(x^5 + x^4)/2 - y^2 - z^2";
-constexpr const char* pole = "1/x + y + z";
-constexpr const char* double_pole = "1/x^2 + y";
 constexpr const char* edge = "sqrt(x) + y";
-constexpr const char* step = "if(x < 0, -1, 1)";
+constexpr const char* cliff = "if(x < 0, -1, 1)";
 constexpr const char* jump = "floor(x) + 1/2";
 constexpr const char* steep = "x^500 + y^4 + z^4 - 1";
 constexpr const char* huge = "1e30*x^4 + 1e30*y^4 - 1e30";
 constexpr const char* tiny = "1e-30*(x^2 + y^2 + z^2 - 1)";
 constexpr const char* far_away = "(x - 1e6)^2 + y^2 + z^2 = 1";
 
-const Row rows[] = {
+const Row hard_rays[] = {
     {"through_a_ball", ball, along_x(-3, 0.25, 0, 6), "h", 3 - 0.96824583655185422, "an ordinary root"},
     {"beside_a_ball", ball, along_x(-3, 1.01, 0, 6), "m", 0, "nothing there"},
     {"grazing_from_within", ball, along_x(-3, 0.99999, 0, 6), "hu", 3 - 0.0044721247741,
@@ -90,7 +91,7 @@ const Row rows[] = {
     {"at_the_edge_of_a_domain", edge, along_x(-1, 0, 0, 2), "u", 0, "sqrt(x) is 0 at 0, and nothing before"},
     {"into_a_domain", edge, along_x(-1, -0.5, 0, 2), "h", 1.25, "sqrt(x) = 1/2; without a value before 0"},
     {"outside_a_domain", edge, along_x(-3, -1, 0, 2), "m", 0, "no value, no zero"},
-    {"across_a_step", step, along_x(-1, 0, 0, 2), "u", 0, "the sign jumps"},
+    {"across_a_step", cliff, along_x(-1, 0, 0, 2), "u", 0, "the sign jumps"},
     {"across_a_jump", jump, along_x(-1.5, 0, 0, 2), "u", 0, "the sign jumps at 0"},
     {"x_500", steep, along_x(-3, 0, 0, 6), "h", 2, "3^500 overflows float"},
     {"x_500_far", steep, along_x(-300, 0, 0, 600), "hu", 299, "300^500 overflows double"},
@@ -149,7 +150,7 @@ std::string mistake(const Row& row, const test::Answer& answer) {
 
 std::map<std::string, std::vector<const Row*>> rows_by_source() {
   std::map<std::string, std::vector<const Row*>> result;
-  for (const Row& row : rows) result[row.source].push_back(&row);
+  for (const Row& row : hard_rays) result[row.source].push_back(&row);
   return result;
 }
 

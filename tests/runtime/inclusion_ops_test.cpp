@@ -30,14 +30,14 @@ TEST_P(InclusionOfOp, holds_every_value) {
   }
 }
 
-std::string name_of(const testing::TestParamInfo<OpForm>& test) {
+std::string op_name(const testing::TestParamInfo<OpForm>& test) {
   std::string name = test.param.name;
   for (char& c : name)
     if (c == '^' || c == '-') c = '_';
   return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Ops, InclusionOfOp, testing::ValuesIn(op_forms()), name_of);
+INSTANTIATE_TEST_SUITE_P(Ops, InclusionOfOp, testing::ValuesIn(op_forms()), op_name);
 
 }  // namespace
 }  // namespace imp::test

@@ -14,8 +14,6 @@ using test::Caster;
 using test::Ray;
 using test::same_bits;
 
-constexpr const char* some_entries[] = {"sphere", "steiner", "tangle", "kummer_16", "torus_sqrt"};
-
 void expect_same(const Answer& a, const Answer& b, const std::string& where) {
   EXPECT_TRUE(a.verdict == b.verdict && same_bits(a.t, b.t) && a.steps == b.steps)
       << where << ": " << a.verdict << " at " << a.t << ", not " << b.verdict << " at " << b.t;
@@ -116,7 +114,8 @@ TEST_P(Packets, agree_with_the_interpreter) {
   });
 }
 
-INSTANTIATE_TEST_SUITE_P(Surfaces, Packets, testing::ValuesIn(some_entries),
+INSTANTIATE_TEST_SUITE_P(Surfaces, Packets,
+                         testing::Values("sphere", "steiner", "tangle", "kummer_16", "torus_sqrt"),
                          [](const auto& test) { return test.param; });
 
 }  // namespace

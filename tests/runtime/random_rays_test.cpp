@@ -89,9 +89,6 @@ TEST(Judge, takes_no_pole_for_a_root) {
   EXPECT_NE(judge(below, judge.roots(below), hit(2)), Judgement::wrong);
 }
 
-constexpr const char* some_entries[] = {"steiner",      "tangle",       "torus",        "kummer_16",
-                                        "barth_sextic", "klein_bottle", "blinn_blobby", "superquadric_round"};
-
 class RandomRays : public testing::TestWithParam<const char*> {};
 
 TEST_P(RandomRays, are_answered_right) {
@@ -116,7 +113,9 @@ TEST_P(RandomRays, are_answered_right) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Surfaces, RandomRays, testing::ValuesIn(some_entries),
+INSTANTIATE_TEST_SUITE_P(Surfaces, RandomRays,
+                         testing::Values("steiner", "tangle", "torus", "kummer_16", "barth_sextic",
+                                         "klein_bottle", "blinn_blobby", "superquadric_round"),
                          [](const auto& test) { return test.param; });
 
 }  // namespace

@@ -16,7 +16,7 @@ using test::render;
 using test::sized;
 using test::verdicts;
 
-constexpr const char* ball = "x^2 + y^2 + z^2 = 1\ncamera from (0, 0, 5) to (0, 0, 0) fov 30\n";
+constexpr const char* ball_and_camera = "x^2 + y^2 + z^2 = 1\ncamera from (0, 0, 5) to (0, 0, 0) fov 30\n";
 constexpr const char* tangle =
     "x^4 - 5*x^2 + y^4 - 5*y^2 + z^4 - 5*z^2 + 11.8 = 0\n"
     "domain box((-2.5, -2.5, -2.5), (2.5, 2.5, 2.5))\n";
@@ -32,7 +32,7 @@ bool is(const Triple& color, double red, double green, double blue) {
 }
 
 TEST(Render, depth_normal_and_steps_of_a_ball) {
-  const Model model = model_of(ball);
+  const Model model = model_of(ball_and_camera);
   for (const Type precision : {f32, f64}) {
     RenderOptions options = sized(40, 40);
     options.depth = options.normal = options.steps = true;
@@ -69,7 +69,7 @@ TEST(Render, depth_normal_and_steps_of_a_ball) {
 }
 
 TEST(Render, gives_the_channels_that_were_asked_for) {
-  const Picture plain = render(model_of(ball), sized(4, 4));
+  const Picture plain = render(model_of(ball_and_camera), sized(4, 4));
   EXPECT_EQ(plain.color.size(), 48U);
   EXPECT_EQ(plain.verdict.size(), 16U);
   EXPECT_TRUE(plain.depth.empty() && plain.normal.empty() && plain.steps.empty());
@@ -155,7 +155,7 @@ TEST(Render, parameters_change_without_a_new_kernel) {
   ASSERT_TRUE(renderer) << to_text(diagnostics);
   const Picture one = renderer->frame({1, 0}), small = renderer->frame({0.5, 0}),
                 later = renderer->frame({1, 1});
-  EXPECT_EQ(verdicts(one), verdicts(render(model_of(ball), options)));
+  EXPECT_EQ(verdicts(one), verdicts(render(model_of(ball_and_camera), options)));
   EXPECT_LT(small.count(verdict_hit), one.count(verdict_hit) / 3);
   EXPECT_GT(small.count(verdict_hit), one.count(verdict_hit) / 6);
   EXPECT_EQ(verdicts(later), verdicts(one)) << "the camera follows";
@@ -166,7 +166,7 @@ TEST(Render, parameters_change_without_a_new_kernel) {
 
 // The names of what the kernel adds are not taken from the file.
 TEST(Render, parameters_may_be_called_anything) {
-  const std::string expected = verdicts(render(model_of(ball), sized(16, 16)));
+  const std::string expected = verdicts(render(model_of(ball_and_camera), sized(16, 16)));
   for (const std::string name : {"x0", "y0", "row", "column", "slab", "eye", "s", "verdict"})
     EXPECT_EQ(verdicts(render(model_of("param " + name + " = 1\nx^2 + y^2 + z^2 = " + name +
                                        "\ncamera from (0, 0, 5) to (0, 0, 0) fov 30"),
@@ -192,7 +192,7 @@ TEST(Render, the_same_by_any_number_of_threads) {
 }
 
 TEST(Render, the_same_verdicts_by_the_interpreter) {
-  for (const std::string source : {ball, tangle}) {
+  for (const std::string source : {ball_and_camera, tangle}) {
     RenderOptions options = sized(16, 16);
     options.depth = options.steps = true;
     const Picture compiled = render(model_of(source), options);
@@ -230,7 +230,7 @@ TEST(Render, sizes_that_are_no_tiles) {
 
 TEST(Render, stops_when_asked) {
   Diagnostics diagnostics;
-  const Model model = model_of(ball);
+  const Model model = model_of(ball_and_camera);
   const auto renderer = Renderer::make(model, sized(256, 256), diagnostics).value();
   std::stop_source stop;
   const Picture some = renderer.frame({}, stop.get_token(), [&](double) { stop.request_stop(); });
@@ -243,7 +243,7 @@ TEST(Render, refuses_what_no_target_is) {
   Diagnostics diagnostics;
   RenderOptions options = sized(4, 4);
   options.kernel.target = "avx1024";
-  const Model model = model_of(ball);
+  const Model model = model_of(ball_and_camera);
   EXPECT_FALSE(Renderer::make(model, options, diagnostics));
   EXPECT_TRUE(to_text(diagnostics).contains("unknown target 'avx1024'; there are: host"))
       << to_text(diagnostics);

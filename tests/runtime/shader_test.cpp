@@ -19,10 +19,6 @@ class Shaders : public testing::TestWithParam<const char*> {
   const Model model = test::model_of(entry);
 };
 
-bool contradict(double a, double b) {
-  return (a == verdict_hit && b == verdict_miss) || (a == verdict_miss && b == verdict_hit);
-}
-
 TEST_P(Shaders, show_the_same_picture) {
   IMP_NEEDS_GL();
   for (const Type precision : {f32, f64}) {
@@ -34,7 +30,7 @@ TEST_P(Shaders, show_the_same_picture) {
     const Picture shown = test::render(model, options);
     std::size_t drawn_otherwise = 0;
     for (std::size_t i = 0; i < shown.verdict.size(); ++i) {
-      EXPECT_FALSE(contradict(shown.verdict[i], expected.verdict[i])) << "pixel " << i;
+      EXPECT_FALSE(test::contradict(shown.verdict[i], expected.verdict[i])) << "pixel " << i;
       drawn_otherwise += std::isfinite(shown.depth[i]) != std::isfinite(expected.depth[i]) ? 1 : 0;
     }
     // An enclosure is wider by up to a step of the numbers at each op: in float some that are just proven
@@ -54,7 +50,7 @@ TEST_P(Shaders, never_contradict_exact_roots) {
     const Method method = choose_method(model.surfaces[0].f, {}, shader);
     const auto found = test::Caster(model, shader, {}, {}, *method.inclusion, *method.search)(rays);
     for (std::size_t i = 0; i < rays.size(); ++i) {
-      EXPECT_FALSE(contradict(found[i].verdict, expected[i].verdict)) << "ray " << i;
+      EXPECT_FALSE(test::contradict(found[i].verdict, expected[i].verdict)) << "ray " << i;
       if (found[i].verdict == verdict_hit && expected[i].verdict == verdict_hit) {
         const double length = rays[i].tmax - rays[i].tmin;
         EXPECT_NEAR(found[i].t, expected[i].t, 1e-4 * length) << "ray " << i;

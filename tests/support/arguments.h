@@ -10,6 +10,7 @@
 #include <random>
 #include <vector>
 
+#include "ir/infinity.h"
 #include "ir/type.h"
 
 namespace imp::test {
@@ -25,7 +26,6 @@ inline std::vector<double> special_arguments(Type type) {
   for (int e = type == f32 ? -149 : -1074; e <= (type == f32 ? 127 : 1023); e += type == f32 ? 1 : 7)
     centers.push_back(std::ldexp(1.0, e));
   std::vector<double> all;
-  const double infinity = std::numeric_limits<double>::infinity();
   for (const double center : centers)
     for (const double sign : {1.0, -1.0}) {
       double x = type == f32 ? static_cast<double>(static_cast<float>(sign * center)) : sign * center;

@@ -1,11 +1,14 @@
 // Random intervals with values at their ends, where bugs live.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <string>
 
+#include "ir/infinity.h"
 #include "tests/support/random.h"
 
 namespace imp::test {
@@ -13,6 +16,8 @@ namespace imp::test {
 struct Box1 {
   double lo, hi;
 };
+
+inline std::string to_text(Box1 box) { return fmt::format("[{}, {}]", box.lo, box.hi); }
 
 class Boxes {
  public:
@@ -52,13 +57,12 @@ class Boxes {
 
   // An interval of reals: not [inf, inf].
   static Box1 repaired(Box1 box) {
-    if (box.lo == std::numeric_limits<double>::infinity()) box.lo = 1e300;
-    if (box.hi == -std::numeric_limits<double>::infinity()) box.hi = -1e300;
+    if (box.lo == infinity) box.lo = 1e300;
+    if (box.hi == -infinity) box.hi = -1e300;
     return box;
   }
 
   double special() {
-    static constexpr double infinity = std::numeric_limits<double>::infinity();
     static constexpr double values[] = {
         0.0,  -0.0,  1,     -1,     2,      -2,     3,        0.5,       1e-40, -1e-40, 5e-324, 1e38, -1e38,
         4e38, -4e38, 1e300, -1e300, 1e-310, 0x1p24, infinity, -infinity, 0.1,   -0.1,   1e-60,  1.5,  -1.5};

@@ -51,15 +51,15 @@ class Folder {
   std::filesystem::path path_;
 };
 
-struct Answer {
+struct CommandAnswer {
   int exit = -1;  // 128 + n: ended by signal n
   std::string out, err;
 };
 
 #ifdef IMP_COMMAND
 // `imp` with these words, in folder `where` if one is given, standard input holding `input`.
-inline Answer imp(const std::vector<std::string>& words, const std::string& input = {},
-                  const std::string& where = {}, const char* output = nullptr) {
+inline CommandAnswer imp(const std::vector<std::string>& words, const std::string& input = {},
+                         const std::string& where = {}, const char* output = nullptr) {
   const Folder folder;
   const std::string in = folder.write("in", input), err = folder / "err";
   const std::string out = output ? output : folder / "out";
@@ -86,5 +86,12 @@ inline Answer imp(const std::vector<std::string>& words, const std::string& inpu
           read_file(err)};
 }
 #endif
+
+// A usage error, whose message begins with `message`.
+inline void expect_usage_error(const CommandAnswer& answer, const std::string& message) {
+  EXPECT_EQ(answer.exit, 2) << message;
+  EXPECT_EQ(answer.out, "");
+  EXPECT_TRUE(answer.err.starts_with("error: " + message)) << answer.err;
+}
 
 }  // namespace imp::test

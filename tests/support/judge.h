@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "ir/infinity.h"
 #include "passes/along_ray.h"
 #include "tests/support/ball.h"
 #include "tests/support/dense_roots.h"
@@ -83,7 +84,7 @@ class Judge {
 
   Judgement of_miss(const Ray& ray, const DenseRoots& known) const {
     if (known.crossing) return certain(ray, *known.crossing) ? Judgement::wrong : Judgement::doubtful;
-    return unless_a_root(ray, known.doubts, std::numeric_limits<double>::infinity());
+    return unless_a_root(ray, known.doubts, infinity);
   }
 
   Judgement of_hit(const Ray& ray, const DenseRoots& known, double t) const {

@@ -19,6 +19,7 @@ inline Truth truth_input(Program& program, std::string name, Rate rate = Rate::r
 inline Expr number(Program& program, double value, Type type = f32) {
   return {&program.graph, program.graph.constant(type, value)};
 }
+inline Expr power(Expr x, double n) { return make(Op::powi, x, constant_like(x, n)); }
 inline void output(Program& program, std::string name, Expr value) {
   program.outputs.push_back({std::move(name), value.id});
 }

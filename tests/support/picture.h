@@ -27,6 +27,11 @@ inline Picture render(const Model& model, const RenderOptions& options,
   return renderer->frame(*uniforms);
 }
 
+// Whether one is a certified hit and the other a certified miss.
+inline bool contradict(double a, double b) {
+  return (a == verdict_hit && b == verdict_miss) || (a == verdict_miss && b == verdict_hit);
+}
+
 inline std::string verdicts(const Picture& picture) {
   std::string result = "\n";
   for (std::size_t i = 0; i < picture.verdict.size(); ++i) {

@@ -57,8 +57,6 @@ class RandomPolynomial {
     }
   }
 
-  Expr power(Expr a, std::uint32_t n) { return make(Op::powi, a, constant_like(a, n)); }
-
   Random random_;
   Program f_;
   std::vector<Expr> variables_;

@@ -1,6 +1,7 @@
 // Random rays through a domain: chords, rays from outside, and rays that graze the surface.
 #pragma once
 
+#include "ir/infinity.h"
 #include "tests/support/dense_roots.h"
 #include "tests/support/random.h"
 
@@ -52,7 +53,7 @@ class RandomRays {
 
   // Clipped to the box around the domain.
   Ray clipped(const Point3& o, const Point3& d) const {
-    Ray ray{o, d, -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    Ray ray{o, d, -infinity, infinity};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (d[axis] == 0) continue;
       const double a = (domain_.lo[axis] - o[axis]) / d[axis], b = (domain_.hi[axis] - o[axis]) / d[axis];

@@ -12,6 +12,9 @@
 
 namespace imp::test {
 
+// The variable of what is along a ray: the first input, s.
+inline constexpr std::size_t first_input[] = {0};
+
 // A ray o + s d, a piece [s0, s1] of it, and a parameter w.
 struct RayPiece {
   double s0, s1;

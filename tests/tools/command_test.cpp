@@ -7,17 +7,15 @@
 namespace imp {
 namespace {
 
-using test::Answer;
+using test::CommandAnswer;
 using test::Folder;
 
 const std::string sphere = IMP_SOURCE_DIR "/examples/surfaces/sphere.imp";
 
 // A usage error, whose message holds `message`.
 void expect_misuse(const std::vector<std::string>& words, const std::string& message) {
-  const Answer answer = test::imp(words);
-  EXPECT_EQ(answer.exit, 2) << message;
-  EXPECT_EQ(answer.out, "");
-  EXPECT_TRUE(answer.err.starts_with("error: ")) << answer.err;
+  const CommandAnswer answer = test::imp(words);
+  test::expect_usage_error(answer, "");
   EXPECT_NE(answer.err.find(message), std::string::npos) << answer.err << "does not hold: " << message;
 }
 
@@ -31,7 +29,7 @@ TEST(Command, says_what_it_is) {
                                                                                      {"inspect", "--help"},
                                                                                      {"trace", "--help"},
                                                                                      {"list", "--help"}}) {
-    const Answer answer = test::imp(words);
+    const CommandAnswer answer = test::imp(words);
     EXPECT_EQ(answer.exit, 0);
     EXPECT_EQ(answer.err, "");
     EXPECT_NE(answer.out.find("Usage: imp"), std::string::npos);
@@ -94,7 +92,7 @@ TEST(Command, the_last_value_counts_and_both_forms_work) {
 }
 
 TEST(Command, names_what_it_cannot_read) {
-  const Answer missing = test::imp({"render", "x.imp"});
+  const CommandAnswer missing = test::imp({"render", "x.imp"});
   EXPECT_EQ(missing.exit, 1);
   EXPECT_EQ(missing.err, "error: cannot read 'x.imp': No such file or directory\n");
   EXPECT_EQ(test::imp({"check", "/"}).err, "error: cannot read '/': Is a directory\n");
@@ -111,7 +109,7 @@ TEST(Command, says_when_output_cannot_be_written) {
       {"render", sphere, "--size", "8x8", "-o", "-"},
   };
   for (const auto& words : commands) {
-    const Answer answer = test::imp(words, "x,y,z\n1,2,3\n", {}, "/dev/full");
+    const CommandAnswer answer = test::imp(words, "x,y,z\n1,2,3\n", {}, "/dev/full");
     EXPECT_EQ(answer.exit, 1) << words[0];
     EXPECT_NE(answer.err.find("cannot write to standard output"), std::string::npos) << answer.err;
   }
@@ -125,7 +123,7 @@ TEST(Command, lists_what_there_is) {
   EXPECT_NE(test::imp({"list", "passes"}).out.find("canonicalize"), std::string::npos);
   EXPECT_NE(test::imp({"list", "ops"}).out.find("a < b ? a : b"), std::string::npos);
   EXPECT_NE(test::imp({"list", "targets"}).out.find("avx512"), std::string::npos);
-  const Answer surfaces = test::imp({"list", "surfaces"}, {}, IMP_SOURCE_DIR);
+  const CommandAnswer surfaces = test::imp({"list", "surfaces"}, {}, IMP_SOURCE_DIR);
   EXPECT_NE(surfaces.out.find("barth_sextic.imp"), std::string::npos) << surfaces.err;
 }
 

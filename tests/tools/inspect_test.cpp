@@ -13,14 +13,15 @@
 namespace imp {
 namespace {
 
-using test::Answer;
+using test::CommandAnswer;
+using test::expect_usage_error;
 
-const std::string file =
+const std::string torus =
     "param a = 0.5 in [0.25, 1]\n"
     "ring = sqrt(x^2 + y^2) - 1\n"
     "surface torus: ring^2 + z^2 = a^2\n";
 
-Answer inspect(std::vector<std::string> words, const std::string& text = file) {
+CommandAnswer inspect(std::vector<std::string> words, const std::string& text = torus) {
   words.insert(words.begin(), {"inspect", "-"});
   return test::imp(words, text);
 }
@@ -36,15 +37,8 @@ std::size_t runs_of(std::string_view pass) {
   return static_cast<std::size_t>(std::ranges::count(kernel_passes(), pass, &Pass::name));
 }
 
-void expect_misuse(const std::vector<std::string>& words, const std::string& message) {
-  const Answer answer = inspect(words);
-  EXPECT_EQ(answer.exit, 2);
-  EXPECT_EQ(answer.out, "");
-  EXPECT_TRUE(answer.err.starts_with("error: " + message)) << answer.err;
-}
-
 TEST(InspectGolden, shows_a_program_with_the_names_of_its_author) {
-  const Answer answer = inspect({});
+  const CommandAnswer answer = inspect({});
   EXPECT_EQ(answer.exit, 0);
   EXPECT_EQ(answer.err, "");
   test::expect_golden("inspect.ir", answer.out);
@@ -54,7 +48,7 @@ TEST(InspectGolden, shows_a_program_with_the_names_of_its_author) {
 TEST(Inspect, shows_every_program) {
   for (const std::string program : {"f", "gradient", "hessian", "interval", "cast", "pixel"})
     for (const std::string precision : {"float", "double"}) {
-      const Answer answer = inspect({"--program", program, "--precision", precision});
+      const CommandAnswer answer = inspect({"--program", program, "--precision", precision});
       ASSERT_EQ(answer.exit, 0) << answer.err;
       Diagnostics diagnostics;
       const auto shown = parse_program(answer.out, program, diagnostics);
@@ -120,15 +114,16 @@ TEST(Inspect, emits_code_for_any_processor) {
 }
 
 TEST(Inspect, refuses_by_name) {
-  expect_misuse({"--print-after", "pwers"}, "--print-after: unknown 'pwers'; did you mean 'powers'?");
-  expect_misuse({"--print-after", "all"}, "--print-after: unknown 'all'; there are ");
-  expect_misuse({"--emit=dot"}, "--emit: 'dot' is not there yet; there are ir, ll, asm");
-  expect_misuse({"--program=afine"}, "--program: unknown 'afine'; did you mean 'affine'?");
-  expect_misuse({"--emit=asm", "--passes"}, "--emit: shows what comes after the passes");
-  expect_misuse({"--stats"}, "--stats: nothing is evaluated here");
+  expect_usage_error(inspect({"--print-after", "pwers"}),
+                     "--print-after: unknown 'pwers'; did you mean 'powers'?");
+  expect_usage_error(inspect({"--print-after", "all"}), "--print-after: unknown 'all'; there are ");
+  expect_usage_error(inspect({"--emit=dot"}), "--emit: 'dot' is not there yet; there are ir, ll, asm");
+  expect_usage_error(inspect({"--program=afine"}), "--program: unknown 'afine'; did you mean 'affine'?");
+  expect_usage_error(inspect({"--emit=asm", "--passes"}), "--emit: shows what comes after the passes");
+  expect_usage_error(inspect({"--stats"}), "--stats: nothing is evaluated here");
 
   EXPECT_EQ(test::imp({"inspect", "no.imp"}).err, "error: cannot read 'no.imp': No such file or directory\n");
-  const Answer unknown = inspect({"-D", "b=1"});
+  const CommandAnswer unknown = inspect({"-D", "b=1"});
   EXPECT_EQ(unknown.exit, 1);
   EXPECT_NE(unknown.err.find("'b'"), std::string::npos) << unknown.err;
   EXPECT_NE(inspect({}, "surface a: x = 0\nsurface b: y = 0\n").err.find("--surface: a, b"),

@@ -11,7 +11,7 @@
 namespace imp {
 namespace {
 
-using test::Answer;
+using test::CommandAnswer;
 using test::Folder;
 
 const std::string ball =
@@ -53,8 +53,9 @@ std::string picture_of(const test::DecodedImage& image) {
 
 TEST(Render, draws_a_ball) {
   const Folder folder;
-  const Answer answer = test::imp({"render", folder.write("s.imp", ball), "--size", "16x16", "-o",
-                                   folder / "s.exr", "--aov=depth,normal,steps,verdict", "--stats=json"});
+  const CommandAnswer answer =
+      test::imp({"render", folder.write("s.imp", ball), "--size", "16x16", "-o", folder / "s.exr",
+                 "--aov=depth,normal,steps,verdict", "--stats=json"});
   ASSERT_EQ(answer.exit, 0) << answer.err;
   const auto image = test::decode_image(folder / "s.exr");
   EXPECT_EQ(picture_of(image), ball_picture);
@@ -90,7 +91,7 @@ TEST(Render, names_the_picture_after_the_file) {
 }
 
 TEST(Render, reads_and_writes_standard_streams) {
-  const Answer answer = test::imp({"render", "-", "--size=8x8", "-o", "-"}, ball);
+  const CommandAnswer answer = test::imp({"render", "-", "--size=8x8", "-o", "-"}, ball);
   EXPECT_EQ(answer.exit, 0);
   EXPECT_EQ(answer.err, "");
   EXPECT_TRUE(answer.out.starts_with("\x89PNG"));
@@ -98,7 +99,7 @@ TEST(Render, reads_and_writes_standard_streams) {
 
 TEST(Render, times_its_frames) {
   const Folder folder;
-  const Answer answer =
+  const CommandAnswer answer =
       test::imp({"render", "-", "--size=8x8", "-o", folder / "a.png", "--repeat=3", "--timings"}, ball);
   EXPECT_TRUE(answer.err.starts_with("3 frames: ")) << answer.err;
   for (const char* stage : {"parse", "passes", "render", "image"})
@@ -107,12 +108,12 @@ TEST(Render, times_its_frames) {
 
 TEST(Render, leaves_nothing_where_it_cannot_write) {
   const Folder folder;
-  const Answer missing = test::imp({"render", "-", "-o", folder / "no/a.png"}, ball);
+  const CommandAnswer missing = test::imp({"render", "-", "-o", folder / "no/a.png"}, ball);
   EXPECT_EQ(missing.exit, 1);
   EXPECT_EQ(missing.err, "error: cannot write '" + (folder / "no/a.png") + "': No such file or directory\n");
 
   std::filesystem::create_directories(folder / "b.png/inside");
-  const Answer taken = test::imp({"render", "-", "--size=8x8", "-o", folder / "b.png"}, ball);
+  const CommandAnswer taken = test::imp({"render", "-", "--size=8x8", "-o", folder / "b.png"}, ball);
   EXPECT_EQ(taken.exit, 1);
   EXPECT_EQ(taken.err, "error: cannot write '" + (folder / "b.png") + "': Is a directory\n");
   EXPECT_EQ(folder.names(), std::vector<std::string>{"b.png"});

@@ -8,16 +8,16 @@
 namespace imp {
 namespace {
 
-using test::Answer;
+using test::CommandAnswer;
 using test::Folder;
 
-const std::string file =
+const std::string growing_ball =
     "param r = 1 in [0.5, 2]\n"
     "time u = 0\n"
     "surface ball: x^2 + y^2 + z^2 = r^2 + u\n";
 
-Answer eval(const std::string& program, const std::string& table, std::vector<std::string> more = {},
-            const std::string& text = file) {
+CommandAnswer eval(const std::string& program, const std::string& table, std::vector<std::string> more = {},
+                   const std::string& text = growing_ball) {
   const Folder folder;
   std::vector<std::string> words{"eval", folder.write("s.imp", text), "--program=" + program, "--points",
                                  "-"};
@@ -61,7 +61,7 @@ TEST(Eval, numbers_are_text_that_reads_back) {
 }
 
 // An input error, whose first line ends with `message`, at standard input's `place`.
-void expect_error(const Answer& answer, const std::string& place, const std::string& message) {
+void expect_error(const CommandAnswer& answer, const std::string& place, const std::string& message) {
   EXPECT_EQ(answer.exit, 1);
   EXPECT_EQ(answer.out, "");
   EXPECT_EQ(answer.err.substr(0, answer.err.find('\n')), "<stdin>:" + place + ": error: " + message);
@@ -86,7 +86,7 @@ TEST(Eval, wants_one_surface) {
   EXPECT_EQ(eval("f", "x,y,z\n0,0,0\n", {}, two).err,
             "error: the file has several surfaces; choose one with --surface: ball, plane\n");
   EXPECT_EQ(eval("f", "x,y,z\n0,0,0\n", {"--surface=plane"}, two).out, "x,y,z,f\n0,0,0,-2\n");
-  const Answer wrong = eval("f", "x,y,z\n0,0,0\n", {"--surface=plain"}, two);
+  const CommandAnswer wrong = eval("f", "x,y,z\n0,0,0\n", {"--surface=plain"}, two);
   EXPECT_EQ(wrong.exit, 1);
   EXPECT_EQ(wrong.err, "error: no surface 'plain'; did you mean 'plane'?\n");
 }
@@ -96,7 +96,7 @@ TEST(Eval, wants_one_surface) {
 TEST(Eval, encloses_by_the_form_that_is_named) {
   const std::string box = "xlo,xhi,ylo,yhi,zlo,zhi\n0,1,0,0,0,0\n", text = "x^2 - x = 0";
   const auto bounds = [&](const std::string& program, std::vector<std::string> more) {
-    const Answer answer = eval(program, box, std::move(more), text);
+    const CommandAnswer answer = eval(program, box, std::move(more), text);
     EXPECT_EQ(answer.exit, 0) << answer.err;
     return answer.out.substr(answer.out.find("0,1,0,0,0,0,") + 12);
   };
@@ -109,7 +109,7 @@ TEST(Eval, encloses_by_the_form_that_is_named) {
 }
 
 TEST(Eval, says_where_a_form_has_no_rule) {
-  const Answer answer =
+  const CommandAnswer answer =
       eval("interval", "xlo,xhi,ylo,yhi,zlo,zhi\n0,1,0,0,0,0\n", {"--inclusion=bernstein"}, "y + sin(x) = 0");
   EXPECT_EQ(answer.exit, 1);
   EXPECT_NE(answer.err.find("s.imp:1:5: error: 'sin' makes this no polynomial in x, y, z; "
@@ -129,12 +129,12 @@ TEST(Eval, reports_on_request) {
 TEST(Eval, is_quick_for_many_rows) {
   std::string table = "x,y,z\n";
   for (int i = 0; i < 100'000; ++i) table += "0.25,-1.5,0.123456789012345\n";
-  const Answer answer = eval("f", table);
+  const CommandAnswer answer = eval("f", table);
   EXPECT_EQ(answer.exit, 0);
   EXPECT_EQ(std::ranges::count(answer.out, '\n'), 100'001);
 }
 
-Answer cast(const std::string& text, const std::string& rows, std::vector<std::string> more = {}) {
+CommandAnswer cast(const std::string& text, const std::string& rows, std::vector<std::string> more = {}) {
   const Folder folder;
   std::vector<std::string> words{"cast", "-", "--rays",
                                  folder.write("r.csv", "ox,oy,oz,dx,dy,dz,tmin,tmax" + rows)};
@@ -143,8 +143,8 @@ Answer cast(const std::string& text, const std::string& rows, std::vector<std::s
 }
 
 TEST(Cast, answers_every_ray) {
-  const Answer answer =
-      cast(file, "\n0,0,3,0,0,-1,0,10\n3,0,3,0,0,-1,0,10\n", {"--precision=double", "--stats=json"});
+  const CommandAnswer answer =
+      cast(growing_ball, "\n0,0,3,0,0,-1,0,10\n3,0,3,0,0,-1,0,10\n", {"--precision=double", "--stats=json"});
   std::istringstream lines(answer.out);
   std::string header, hit, miss;
   std::getline(lines, header);
@@ -164,26 +164,26 @@ TEST(Cast, answers_every_ray) {
 }
 
 TEST(Cast, columns_set_uniforms) {
-  const Answer answer = cast(file, ",r\n0,0,3,0,0,-1,0,1.5,1\n0,0,3,0,0,-1,0,1.5,2\n");
+  const CommandAnswer answer = cast(growing_ball, ",r\n0,0,3,0,0,-1,0,1.5,1\n0,0,3,0,0,-1,0,1.5,2\n");
   EXPECT_NE(answer.out.find(",1,miss,"), std::string::npos) << answer.out;
   EXPECT_NE(answer.out.find(",2,hit,"), std::string::npos) << answer.out;
 }
 
 TEST(Check, is_quiet_about_what_is_right) {
-  const Answer answer = test::imp({"check", "-"}, file);
+  const CommandAnswer answer = test::imp({"check", "-"}, growing_ball);
   EXPECT_EQ(answer.exit, 0);
   EXPECT_EQ(answer.out + answer.err, "");
-  EXPECT_EQ(test::imp({"check", "-", "--json"}, file).out, "[]\n");
+  EXPECT_EQ(test::imp({"check", "-", "--json"}, growing_ball).out, "[]\n");
 }
 
 TEST(Check, tells_what_is_wrong) {
   const std::string wrong = "surface ball: x + foo = 1\n";
-  const Answer answer = test::imp({"check", "-"}, wrong);
+  const CommandAnswer answer = test::imp({"check", "-"}, wrong);
   EXPECT_EQ(answer.exit, 1);
   EXPECT_TRUE(answer.err.starts_with("<stdin>:1:19: error: unknown name 'foo'")) << answer.err;
 
   const Folder folder;
-  const Answer json = test::imp({"check", "--json", folder / "no.imp", folder.write("s.imp", wrong)});
+  const CommandAnswer json = test::imp({"check", "--json", folder / "no.imp", folder.write("s.imp", wrong)});
   EXPECT_EQ(json.exit, 1);
   EXPECT_EQ(json.err, "");
   const auto all = nlohmann::json::parse(json.out);

@@ -10,16 +10,18 @@
 namespace imp {
 namespace {
 
-using test::Answer;
+using test::CommandAnswer;
+using test::expect_usage_error;
 using test::Folder;
 
-const std::string ball =
+const std::string ball_of_r =
     "param r = 1.5\n"
     "surface ball: x^2 + y^2 + z^2 = r^2\n"
     "domain sphere(radius: 2)\n"
     "camera from (0, 0, 5) to (0, 0, 0) height 4.5\n";
 
-Answer trace(const std::string& pixel, std::vector<std::string> more = {}, const std::string& text = ball) {
+CommandAnswer trace(const std::string& pixel, std::vector<std::string> more = {},
+                    const std::string& text = ball_of_r) {
   std::vector<std::string> words{"trace", "-", "--size=16x16", "--pixel", pixel};
   words.insert(words.end(), more.begin(), more.end());
   return test::imp(words, text);
@@ -34,7 +36,7 @@ std::string after(const std::string& text, const std::string& label) {
 }
 
 TEST(TraceGolden, shows_every_step) {
-  const Answer answer = trace("7,8", {"--epsilon=2^-8"});
+  const CommandAnswer answer = trace("7,8", {"--epsilon=2^-8"});
   EXPECT_EQ(answer.exit, 0);
   EXPECT_EQ(answer.err, "");
   test::expect_golden("trace.txt", answer.out);
@@ -43,7 +45,7 @@ TEST(TraceGolden, shows_every_step) {
 // The same verdict, t, normal and number of steps as in the picture, bit for bit.
 TEST(Trace, answers_what_the_picture_shows) {
   const Folder folder;
-  for (const std::string& text : {ball, std::string("surface a: x^2 + y^2 = z^2\nsurface b: z = 0.5\n")})
+  for (const std::string& text : {ball_of_r, std::string("surface a: x^2 + y^2 = z^2\nsurface b: z = 0.5\n")})
     for (const std::string precision : {"float", "double"}) {
       const std::string picture = folder / "s.exr";
       ASSERT_EQ(test::imp({"render", "-", "--size=16x16", "-o", picture, "--aov=depth,normal,steps,verdict",
@@ -54,8 +56,8 @@ TEST(Trace, answers_what_the_picture_shows) {
       const auto image = test::decode_image(picture);
       for (std::size_t i = 0; i < 16; ++i) {
         const std::size_t x = (5 * i) % 16, y = i;
-        const Answer answer = trace(std::to_string(x) + "," + std::to_string(y),
-                                    {"--precision", precision, "--search=isolate"}, text);
+        const CommandAnswer answer = trace(std::to_string(x) + "," + std::to_string(y),
+                                           {"--precision", precision, "--search=isolate"}, text);
         ASSERT_EQ(answer.exit, 0) << answer.err;
         SCOPED_TRACE(answer.out);
         const float verdict = image.at(x, y, "verdict");
@@ -76,14 +78,14 @@ TEST(Trace, answers_what_the_picture_shows) {
 
 TEST(Trace, says_why_a_ray_misses) {
   EXPECT_EQ(after(trace("0,0").out, "verdict"), "miss: the ray does not meet the domain");
-  const Answer beside = trace("8,1");
+  const CommandAnswer beside = trace("8,1");
   EXPECT_EQ(after(beside.out, "verdict"), "miss: every piece is excluded, certified");
   EXPECT_NE(beside.out.find("\nrefine: not entered\n"), std::string::npos);
   EXPECT_EQ(after(trace("8,1", {"-D", "r=1.9"}).out, "verdict"), "hit: the first root, certified");
 }
 
 TEST(Trace, reports_on_request) {
-  const Answer answer = trace("7,8", {"--stats", "--timings", "--backend=llvm"});
+  const CommandAnswer answer = trace("7,8", {"--stats", "--timings", "--backend=llvm"});
   EXPECT_TRUE(answer.err.starts_with("1 pixels in ")) << answer.err;
   EXPECT_NE(answer.err.find("1 hit, 0 miss, 0 undecided"), std::string::npos);
   EXPECT_NE(answer.err.find("backend interpreter"), std::string::npos);
@@ -91,16 +93,11 @@ TEST(Trace, reports_on_request) {
 }
 
 TEST(Trace, wants_a_pixel_of_the_picture) {
-  const auto misuse = [](const Answer& answer, const std::string& message) {
-    EXPECT_EQ(answer.exit, 2);
-    EXPECT_EQ(answer.out, "");
-    EXPECT_TRUE(answer.err.starts_with("error: --pixel" + message)) << answer.err;
-  };
-  misuse(test::imp({"trace", "-"}, ball), " is required");
-  misuse(trace("16,0"), ": 16,0 is not in a picture of 16x16");
-  misuse(trace("0,16"), ": 0,16 is not in a picture of 16x16");
-  misuse(trace("7"), ": '7' is not of the form X,Y");
-  misuse(trace("7,y"), ": 'y' is no whole number");
+  expect_usage_error(test::imp({"trace", "-"}, ball_of_r), "--pixel is required");
+  expect_usage_error(trace("16,0"), "--pixel: 16,0 is not in a picture of 16x16");
+  expect_usage_error(trace("0,16"), "--pixel: 0,16 is not in a picture of 16x16");
+  expect_usage_error(trace("7"), "--pixel: '7' is not of the form X,Y");
+  expect_usage_error(trace("7,y"), "--pixel: 'y' is no whole number");
   EXPECT_EQ(trace("15,15").exit, 0);
   EXPECT_EQ(trace("7,7", {}, "x + = 1").exit, 1);
 }

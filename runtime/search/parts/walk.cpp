@@ -21,11 +21,6 @@ namespace {
 
 constexpr std::uint32_t highest_float_degree = 6;
 
-Expr to(Type type, Expr value) {
-  if (value.type() == type) return value;
-  return type == f32 ? narrow(value) : widen(value);
-}
-
 // Numbers of the kernel's type around a place that is known in f64, up to the rounding of some thousand steps.
 constexpr double place_error = 0x1p-38;
 Expr above(Expr s, Type type) {

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <random>
 
+#include "ir/infinity.h"
 #include "passes/elementary/bounds.h"
 #include "passes/elementary/lower.h"
 #include "tests/support/arguments.h"
@@ -22,7 +23,6 @@ using test::cost;
 using test::input;
 using test::output;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double pi = std::numbers::pi;
 
 class AngleFunctions : public testing::TestWithParam<Type> {

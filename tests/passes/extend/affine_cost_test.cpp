@@ -17,7 +17,7 @@
 namespace imp::test {
 namespace {
 
-constexpr double domain = 2;  // o, and s d in any direction
+constexpr double extent = 2;  // o, and s d in any direction
 
 // The bounds of `f` (the variables first) in double: lo and hi of each variable, then points for the others.
 Program bounds(const Program& f, Form& form, std::size_t variables) {
@@ -49,7 +49,7 @@ double ratio(const Program& a, const Program& b, const Program& f, std::size_t v
   for (int i = 0; i < 200; ++i) {
     std::vector<double> numbers;
     for (std::size_t k = 0; k < f.inputs.size() - uniforms.size(); ++k) {
-      const double lo = random.between(k < variables && variables == 1 ? 0 : -domain, domain / 2);
+      const double lo = random.between(k < variables && variables == 1 ? 0 : -extent, extent / 2);
       numbers.push_back(lo);
       if (k < variables) numbers.push_back(lo + width);
     }

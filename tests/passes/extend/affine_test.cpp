@@ -19,14 +19,14 @@
 namespace imp::test {
 namespace {
 
-constexpr std::size_t inputs = 6;
+constexpr std::size_t dimension = 6;
 constexpr double largest = 4;  // of the domain
-const std::string names[inputs] = {"x", "y", "z", "u", "v", "w"};
+const std::string names[dimension] = {"x", "y", "z", "u", "v", "w"};
 
-using Point = std::array<double, inputs>;
+using Point = std::array<double, dimension>;
 using Build = std::function<Expr(std::span<const Expr>)>;
 
-Program program_of(const Build& build) {
+Program program_of_all(const Build& build) {
   Program f{.name = "f"};
   std::vector<Expr> at;
   for (const std::string& name : names) at.push_back(input(f, name, f64));
@@ -50,12 +50,12 @@ Program extended(const Program& f, const Way& way) {
   Program result{.name = "form"};
   std::vector<Interval> sides;
   std::vector<std::size_t> variables;
-  for (std::size_t i = 0; i < inputs; ++i) {
+  for (std::size_t i = 0; i < dimension; ++i) {
     const Expr lo = input(result, names[i] + "lo", f64), hi = input(result, names[i] + "hi", f64);
     sides.push_back(way.type == f32 ? interval(narrow_up(-lo), narrow_up(hi)) : interval(-lo, hi));
     if (i < way.symbols) variables.push_back(i);
   }
-  std::array<Range, inputs> domain;
+  std::array<Range, dimension> domain;
   domain.fill({-largest, largest});
   const InputBox box{sides, variables,
                      way.domain ? std::span<const Range>(domain) : std::span<const Range>()};
@@ -116,12 +116,12 @@ void expect_enclosed(const Way& way, std::span<const double> v, const Point& at,
       << where() << fmt::format(", {} +- {}", static_cast<double>(middle), v[5]);
 }
 
-struct Formula {
+// A formula whose operands depend on each other.
+struct Entangled {
   const char* name;
   Build build;
 };
 
-Expr power(Expr a, double n) { return make(Op::powi, a, constant_like(a, n)); }
 Expr mean(std::span<const Expr> x) { return (x[0] + x[1] + x[2] + x[3] + x[4] + x[5]) / 6.0; }  // of all
 
 #define IMP_OF(expression)                      \
@@ -130,7 +130,7 @@ Expr mean(std::span<const Expr> x) { return (x[0] + x[1] + x[2] + x[3] + x[4] + 
     (void)x, (void)y, (void)m;                  \
     return expression;                          \
   }
-const Formula formulas[] = {
+const Entangled entangled[] = {
     {"sums", IMP_OF(x + 2.0 * y - m + 0.1)},
     {"product of one", IMP_OF(x * (1.0 - x))},
     {"product", IMP_OF((x + y) * (m - y))},
@@ -180,8 +180,9 @@ const Formula formulas[] = {
     {"if", IMP_OF(select(x < y, x* y, m))},
     {"fma", IMP_OF(make(Op::fma, x, y, -(x* m)))},
 };
+#undef IMP_OF
 
-class EveryForm : public testing::TestWithParam<Formula> {};
+class EveryForm : public testing::TestWithParam<Entangled> {};
 
 // As a driver may run it: of the results below the smallest normal number none is left; upward ones are raised.
 Program flushed(const Program& program) {
@@ -196,8 +197,8 @@ Program flushed(const Program& program) {
   });
 }
 
-void expect_forms_enclose(const Formula& formula, double scale, Program (*change)(const Program&)) {
-  const Program f = program_of(formula.build);
+void expect_forms_enclose(const Entangled& formula, double scale, Program (*change)(const Program&)) {
+  const Program f = program_of_all(formula.build);
   std::vector<std::pair<Way, std::unique_ptr<Kernel>>> ways;
   for (const Type type : {f32, f64})
     for (const std::size_t symbols : {1u, 2u, 3u, 6u})
@@ -207,7 +208,7 @@ void expect_forms_enclose(const Formula& formula, double scale, Program (*change
       }
   Boxes boxes(0xaff);
   for (int i = 0; i < 40; ++i) {
-    std::array<Box1, inputs> box;
+    std::array<Box1, dimension> box;
     for (Box1& side : box) side = boxes.within(-scale, scale);
     if (boxes.pick(4) == 0) box[0].hi = box[0].lo;
     if (boxes.pick(8) == 0) box.fill({-scale, scale});
@@ -215,7 +216,7 @@ void expect_forms_enclose(const Formula& formula, double scale, Program (*change
     for (const auto& [way, kernel] : ways) results.push_back(evaluate(*kernel, ends_of(box)));
     for (int k = 0; k < 4; ++k) {
       Point at;
-      for (std::size_t j = 0; j < inputs; ++j) at[j] = boxes.inside(box[j]);
+      for (std::size_t j = 0; j < dimension; ++j) at[j] = boxes.inside(box[j]);
       const Enclosure value = exact_values(f, at)[0];
       for (std::size_t w = 0; w < ways.size(); ++w) {
         expect_enclosed(ways[w].first, results[w], at, value, formula.name);
@@ -233,7 +234,7 @@ TEST_P(EveryForm, encloses_what_nearly_vanishes) {
   expect_forms_enclose(GetParam(), 1e-37, flushed);
 }
 
-INSTANTIATE_TEST_SUITE_P(formulas, EveryForm, testing::ValuesIn(formulas), [](const auto& test) {
+INSTANTIATE_TEST_SUITE_P(formulas, EveryForm, testing::ValuesIn(entangled), [](const auto& test) {
   std::string name = test.param.name;
   std::ranges::replace_if(name, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
   return name;

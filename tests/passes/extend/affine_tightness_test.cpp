@@ -3,38 +3,24 @@
 
 #include <cmath>
 
+#include "ir/infinity.h"
 #include "passes/extend/forms.h"
 #include "passes/pass.h"
-#include "tests/support/boxes.h"
-#include "tests/support/evaluate.h"
-#include "tests/support/make.h"
+#include "tests/passes/extend/bounds.h"
+#include "tests/support/formula.h"
 
 namespace imp::test {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-using Build = Expr (*)(Expr x, Expr y);
-
-struct Bounds {
-  double lo, hi;
-  bool defined;
-  double width() const { return hi - lo; }
-};
-
-Bounds over(Build build, Form& form, Type type, Box1 x, Box1 y) {
-  Program f{.name = "f"};
-  const Expr first = input(f, "x", f64), second = input(f, "y", f64);
-  output(f, "f", build(first, second));
+Bounds over(const Formula& formula, Form& form, Type type, Box1 x, Box1 y) {
   Diagnostics diagnostics;
-  const auto kernel = interpret(run_passes(*extension(f, form, type, diagnostics), kernel_passes()));
-  const auto v = evaluate(*kernel, std::array{x.lo, x.hi, y.lo, y.hi});
-  return {v[0], v[1], v[2] != 0};
+  const auto enclosure = extension(program_of(formula), form, type, diagnostics);
+  return bounds_over(*interpret(run_passes(*enclosure, kernel_passes())), x, y);
 }
 
 struct Tied {
   const char* name;
-  Build build;
+  Formula formula;
   Box1 x, y;
   double factor;  // of the width by intervals, what the affine form must stay below
 };
@@ -42,7 +28,7 @@ void PrintTo(const Tied& tied, std::ostream* out) { *out << tied.name; }
 
 #define IMP_OF(expression) [](Expr x, Expr y) { return (void)y, expression; }
 constexpr Box1 unit{-1, 1}, near_zero{-0.2, 0.2}, near_one{0.9, 1.1};
-const Tied formulas[] = {
+const Tied tied_formulas[] = {
     {"difference", IMP_OF(x - x), {-3, 5}, unit, 1e-28},
     {"sums", IMP_OF((x + 2.0 * y) - (x - y) - 3.0 * y), {-3, 5}, unit, 1e-6},
     {"scaled", IMP_OF(0.1 * x - x / 10.0), {1, 2}, unit, 4e-6},
@@ -79,11 +65,11 @@ const Tied formulas[] = {
 class Tightness : public testing::TestWithParam<Tied> {};
 
 TEST_P(Tightness, forms_are_narrower_than_intervals) {
-  const auto& [name, build, x, y, factor] = GetParam();
+  const auto& [name, formula, x, y, factor] = GetParam();
   for (const Type type : {f32, f64}) {
-    const Bounds intervals = over(build, interval_form, type, x, y);
+    const Bounds intervals = over(formula, interval_form, type, x, y);
     for (Form* form : {&affine_form, &affine_and_interval_form}) {
-      const Bounds bounds = over(build, *form, type, x, y);
+      const Bounds bounds = over(formula, *form, type, x, y);
       EXPECT_TRUE(bounds.defined);
       EXPECT_LE(bounds.lo, bounds.hi);
       EXPECT_LT(bounds.width(), factor * intervals.width()) << bounds.width() / intervals.width();
@@ -91,19 +77,19 @@ TEST_P(Tightness, forms_are_narrower_than_intervals) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Affine, Tightness, testing::ValuesIn(formulas),
+INSTANTIATE_TEST_SUITE_P(Affine, Tightness, testing::ValuesIn(tied_formulas),
                          [](const auto& test) { return test.param.name; });
 
 // No form holds there: of infinite ends nothing may cancel.
 TEST(AffineBoxes, infinite_ones_are_those_of_intervals) {
-  constexpr Build builds[] = {IMP_OF(x - x),      IMP_OF(x * x - x),     IMP_OF(sqrt(x) - x),
+  const Formula formulas[] = {IMP_OF(x - x),      IMP_OF(x * x - x),     IMP_OF(sqrt(x) - x),
                               IMP_OF(abs(x) + x), IMP_OF(max(x, y) - x), IMP_OF(make(Op::exp, -x) + x)};
-  for (const Build build : builds)
+  for (const Formula& formula : formulas)
     for (const Type type : {f32, f64})
       for (const Box1 x : {Box1{-infinity, infinity}, {0, infinity}, {-infinity, 1}})
         for (Form* form : {&affine_form, &affine_and_interval_form}) {
-          const Bounds bounds = over(build, *form, type, x, unit);
-          const Bounds intervals = over(build, interval_form, type, x, unit);
+          const Bounds bounds = over(formula, *form, type, x, unit);
+          const Bounds intervals = over(formula, interval_form, type, x, unit);
           EXPECT_EQ(bounds.lo, intervals.lo);
           EXPECT_EQ(bounds.hi, intervals.hi);
           EXPECT_EQ(bounds.defined, intervals.defined);
@@ -112,17 +98,17 @@ TEST(AffineBoxes, infinite_ones_are_those_of_intervals) {
 
 TEST(AffineBoxes, empty_ones_have_no_values) {
   struct {
-    Build build;
+    Formula formula;
     Box1 x;
   } const cases[] = {{IMP_OF(x - y), {1, -1}},
                      {IMP_OF(x - y), {std::nan(""), 1}},
                      {IMP_OF(x - y), {infinity, infinity}},
                      {IMP_OF(sqrt(x) - x), {-2, -1}},
                      {IMP_OF(make(Op::log, x) * y), {-2, -1}}};
-  for (const auto& [build, x] : cases)
+  for (const auto& [formula, x] : cases)
     for (const Type type : {f32, f64})
       for (Form* form : {&affine_form, &affine_and_interval_form}) {
-        const Bounds bounds = over(build, *form, type, x, unit);
+        const Bounds bounds = over(formula, *form, type, x, unit);
         EXPECT_GT(bounds.lo, bounds.hi);
         EXPECT_FALSE(bounds.defined);
       }

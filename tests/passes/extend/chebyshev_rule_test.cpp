@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "ir/infinity.h"
 #include "passes/elementary/lower.h"
 #include "passes/extend/chebyshev_extremes.h"
 #include "passes/extend/forms.h"
@@ -15,13 +16,12 @@
 namespace imp::test {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-struct Case {
+// The k-th derivative of T_n.
+struct Derivative {
   unsigned n, k;
 };
 
-class ChebyshevRule : public testing::TestWithParam<std::tuple<Case, Type>> {
+class ChebyshevRule : public testing::TestWithParam<std::tuple<Derivative, Type>> {
  protected:
   ChebyshevRule() {
     Program f{.name = "f"};
@@ -75,18 +75,16 @@ class ChebyshevRule : public testing::TestWithParam<std::tuple<Case, Type>> {
   std::unique_ptr<Kernel> extension_;
 };
 
-std::string text(Box1 box) { return fmt::format("[{}, {}]", box.lo, box.hi); }
-
 TEST_P(ChebyshevRule, encloses_every_value) {
   Boxes boxes(0xc4e + n);
   for (int i = 0; i < 200; ++i) {
     const Box1 x = box(boxes), bounds = over(x);
-    ASSERT_LE(bounds.lo, bounds.hi) << text(x);
+    ASSERT_LE(bounds.lo, bounds.hi) << to_text(x);
     for (int m = 0; m < 6; ++m) {
       const double p = boxes.inside(x);
       const BigInterval value = chebyshev_reference(p, n, k);
       ASSERT_TRUE(mpfr_cmp_d(value.hi(), bounds.lo) >= 0 && mpfr_cmp_d(value.lo(), bounds.hi) <= 0)
-          << text(x) << fmt::format(" at {} is {}, not in ", p, nearest(value)) << text(bounds);
+          << to_text(x) << fmt::format(" at {} is {}, not in ", p, nearest(value)) << to_text(bounds);
     }
   }
 }
@@ -122,8 +120,10 @@ TEST_P(ChebyshevRule, is_tight) {
     const double slack =
         4 * eps * (n * n * scale + steepest * scale / peak) + varied * std::max(std::abs(lo), std::abs(hi));
     const double share = listed ? 1e-3 : 0.6;
-    EXPECT_GE(bounds.lo, lo - slack - share * (hi - lo)) << text(x) << text({lo, hi}) << text(bounds);
-    EXPECT_LE(bounds.hi, hi + slack + share * (hi - lo)) << text(x) << text({lo, hi}) << text(bounds);
+    EXPECT_GE(bounds.lo, lo - slack - share * (hi - lo))
+        << to_text(x) << to_text(Box1{lo, hi}) << to_text(bounds);
+    EXPECT_LE(bounds.hi, hi + slack + share * (hi - lo))
+        << to_text(x) << to_text(Box1{lo, hi}) << to_text(bounds);
   }
 }
 
@@ -133,25 +133,26 @@ TEST_P(ChebyshevRule, excludes_0_around_the_roots_of_the_polynomial) {
   for (unsigned j = 0; j < n; ++j) {
     const auto place = [&](double turns) { return std::cos(std::numbers::pi * turns / n); };
     const Box1 x{place(j + 0.85), place(j + 0.15)}, bounds = over(x);
-    EXPECT_TRUE(bounds.lo > 0 || bounds.hi < 0) << text(x) << text(bounds);
+    EXPECT_TRUE(bounds.lo > 0 || bounds.hi < 0) << to_text(x) << to_text(bounds);
   }
 }
 
-std::vector<Case> cases() {
-  std::vector<Case> all;
+std::vector<Derivative> derivatives() {
+  std::vector<Derivative> all;
   for (const unsigned n :
        {0u, 1u, 2u, 3u, 4u, 5u, 6u, 7u, 8u, 9u, 12u, 14u, 15u, 16u, 17u, 22u, 24u, 25u, 50u})
     for (unsigned k = 0; k <= std::min(n, 3u); ++k) all.push_back({n, k});
   return all;
 }
 
-std::string name_of(const testing::TestParamInfo<std::tuple<Case, Type>>& test) {
+std::string derivative_name(const testing::TestParamInfo<std::tuple<Derivative, Type>>& test) {
   const auto& [c, type] = test.param;
   return fmt::format("T{}_{}_{}", c.n, c.k, type == f32 ? "f32" : "f64");
 }
 
 INSTANTIATE_TEST_SUITE_P(degrees, ChebyshevRule,
-                         testing::Combine(testing::ValuesIn(cases()), testing::Values(f32, f64)), name_of);
+                         testing::Combine(testing::ValuesIn(derivatives()), testing::Values(f32, f64)),
+                         derivative_name);
 
 TEST(ChebyshevRules, ranges_fold) {
   Program f{.name = "f"};

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <functional>
 
 #include "ir/text.h"
 #include "passes/extend/forms.h"
@@ -17,7 +16,7 @@
 #include "tests/support/evaluate.h"
 #include "tests/support/every_form.h"
 #include "tests/support/exact.h"
-#include "tests/support/make.h"
+#include "tests/support/formula.h"
 
 namespace imp::test {
 namespace {
@@ -34,11 +33,9 @@ Program with_every_node(Program program) {
   return program;
 }
 
-Checked compose(Form& form, const std::function<Expr(Expr, Expr)>& formula) {
+Checked compose(Form& form, const Formula& formula) {
   Checked result;
-  result.f.name = "f";
-  const Expr x = input(result.f, "x", f64), y = input(result.f, "y", f64);
-  output(result.f, "f", formula(x, y));
+  result.f = program_of(formula);
   result.values = interpret(with_every_node(reduce_powers(in_precision(result.f, f64))));
   Diagnostics diagnostics;
   for (const Type type : {f32, f64})
@@ -69,9 +66,7 @@ void expect_enclosed(const Checked& checked, Box1 x, Box1 y, double px, double p
 
 class Composition : public testing::TestWithParam<Inclusion> {
  protected:
-  static Checked compose(const std::function<Expr(Expr, Expr)>& formula) {
-    return test::compose(*GetParam().enclose, formula);
-  }
+  static Checked compose(const Formula& formula) { return test::compose(*GetParam().enclose, formula); }
   // Where it may, the test ends here.
   static bool refuses(const Checked& checked) { return may_refuse(GetParam(), checked.f); }
   void expect_random_formulas_enclosed(std::uint64_t count, bool elementary);
@@ -105,9 +100,8 @@ Expr number_like(Expr x, double value) { return constant_like(x, value); }
 
 // What was wrong once.
 TEST_P(Composition, an_undefined_factor_makes_the_product_undefined) {
-  for (const auto& formula :
-       {std::function([](Expr x, Expr) { return (x + 2.0) * (1.0 + 0.0 * sqrt(x)); }),
-        std::function([](Expr x, Expr) { return (x + 2.0) / (1.0 + 0.0 * sqrt(x)); })}) {
+  for (const auto& formula : {Formula([](Expr x, Expr) { return (x + 2.0) * (1.0 + 0.0 * sqrt(x)); }),
+                              Formula([](Expr x, Expr) { return (x + 2.0) / (1.0 + 0.0 * sqrt(x)); })}) {
     const Checked checked = compose(formula);
     if (refuses(checked)) GTEST_SKIP() << "no polynomial";
     const auto v = evaluate(*checked.enclosures[0], std::array{-3.0, -1.0, 0.0, 0.0});

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <functional>
 
 #include "ir/text.h"
 #include "passes/extend/interval.h"
@@ -15,19 +14,10 @@
 #include "tests/support/cost.h"
 #include "tests/support/evaluate.h"
 #include "tests/support/exact.h"
-#include "tests/support/make.h"
+#include "tests/support/formula.h"
 
 namespace imp::test {
 namespace {
-
-using Formula = std::function<Expr(Expr, Expr)>;
-
-Program program_of(const Formula& formula) {
-  Program f{.name = "f"};
-  const Expr x = input(f, "x", f64), y = input(f, "y", f64);
-  output(f, "f", formula(x, y));
-  return f;
-}
 
 // From -xlo, xhi, -ylo, yhi to -flo, fhi and whether it is empty, in `type`; nothing where an op has no rule.
 std::optional<Program> over_domain(const Program& f, std::span<const Range> domain, Type type) {

@@ -5,17 +5,15 @@
 
 #include <numbers>
 
+#include "ir/infinity.h"
 #include "ir/meaning.h"
 #include "passes/elementary/lower.h"
 #include "passes/extend/forms.h"
-#include "tests/support/boxes.h"
-#include "tests/support/evaluate.h"
-#include "tests/support/make.h"
+#include "tests/passes/extend/bounds.h"
+#include "tests/support/formula.h"
 
 namespace imp::test {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Range1 {
   double lo = -infinity, hi = infinity;
@@ -48,27 +46,20 @@ const Function functions[] = {
     {Op::atan2, {}, {-2, 2}},
 };
 
-struct Bounds {
-  double lo, hi;
-  bool defined;
-};
+Formula formula_of(Op op) {
+  return [op](Expr x, Expr y) { return info(op).arity == 1 ? make(op, x) : make(op, x, y); };
+}
 
 class ElementaryRule : public testing::TestWithParam<std::tuple<Function, Type>> {
  protected:
   ElementaryRule() {
-    Program f{.name = "f"};
-    const Expr x = input(f, "x", f64), y = input(f, "y", f64);
-    output(f, "f", info(function.op).arity == 1 ? make(function.op, x) : make(function.op, x, y));
     Diagnostics diagnostics;
-    auto extended = extension(f, interval_form, type, diagnostics);
+    auto extended = extension(program_of(formula_of(function.op)), interval_form, type, diagnostics);
     EXPECT_TRUE(extended) << to_text(diagnostics);
     extension_ = interpret(lower_elementary(*extended));
   }
 
-  Bounds over(Box1 x, Box1 y) const {
-    const auto v = evaluate(*extension_, std::array{x.lo, x.hi, y.lo, y.hi});
-    return {v[0], v[1], v[2] != 0};
-  }
+  Bounds over(Box1 x, Box1 y) const { return bounds_over(*extension_, x, y); }
   // Of real numbers, which know one zero.
   double at(double x, double y) const { return meaning::real<double>(function.op, x + 0.0, y + 0.0, 0); }
 
@@ -78,8 +69,6 @@ class ElementaryRule : public testing::TestWithParam<std::tuple<Function, Type>>
  private:
   std::unique_ptr<Kernel> extension_;
 };
-
-std::string text(Box1 box) { return fmt::format("[{}, {}]", box.lo, box.hi); }
 
 TEST_P(ElementaryRule, encloses_every_value) {
   Boxes boxes(0xe1e);
@@ -92,12 +81,12 @@ TEST_P(ElementaryRule, encloses_every_value) {
     for (int k = 0; k < 8; ++k) {
       const double px = boxes.inside(x), py = boxes.inside(y), value = at(px, py);
       if (std::isnan(value)) {
-        ASSERT_FALSE(bounds.defined) << text(x) << text(y) << " at " << px << ' ' << py;
+        ASSERT_FALSE(bounds.defined) << to_text(x) << to_text(y) << " at " << px << ' ' << py;
       } else if (std::isinf(value)) {  // overflow, or a pole: not a real number
         ASSERT_TRUE(bounds.lo <= value || bounds.hi >= value);
       } else {
         ASSERT_TRUE(bounds.lo <= value && value <= bounds.hi)
-            << text(x) << text(y)
+            << to_text(x) << to_text(y)
             << fmt::format(" at {}, {} is {}, not in [{}, {}]", px, py, value, bounds.lo, bounds.hi);
       }
     }
@@ -126,8 +115,8 @@ TEST_P(ElementaryRule, is_tight) {
     const double slack = 0.01 * (hi - lo) + eps * (1 + std::max(std::abs(lo), std::abs(hi)));
     const double input_slack =
         type == f32 ? (hi - lo) * 1e-3 + eps * 100 * std::max(std::abs(lo), std::abs(hi)) : 0;
-    EXPECT_GE(bounds.lo, lo - slack - input_slack) << text(x) << text(y);
-    EXPECT_LE(bounds.hi, hi + slack + input_slack) << text(x) << text(y);
+    EXPECT_GE(bounds.lo, lo - slack - input_slack) << to_text(x) << to_text(y);
+    EXPECT_LE(bounds.hi, hi + slack + input_slack) << to_text(x) << to_text(y);
   }
 }
 
@@ -150,25 +139,22 @@ TEST_P(ElementaryRule, knows_where_it_is_defined) {
   }
 }
 
-std::string name_of(const testing::TestParamInfo<std::tuple<Function, Type>>& test) {
+std::string function_name(const testing::TestParamInfo<std::tuple<Function, Type>>& test) {
   const auto& [function, type] = test.param;
   return std::string(info(function.op).name) + (type == f32 ? "_f32" : "_f64");
 }
 
 INSTANTIATE_TEST_SUITE_P(functions, ElementaryRule,
-                         testing::Combine(testing::ValuesIn(functions), testing::Values(f32, f64)), name_of);
+                         testing::Combine(testing::ValuesIn(functions), testing::Values(f32, f64)),
+                         function_name);
 
 Bounds over(Op op, Type type, Box1 x, Box1 y = {}) {
-  Program f{.name = "f"};
-  const Expr a = input(f, "x", f64), b = input(f, "y", f64);
-  output(f, "f", info(op).arity == 1 ? make(op, a) : make(op, a, b));
   Diagnostics diagnostics;
-  const auto kernel = interpret(lower_elementary(*extension(f, interval_form, type, diagnostics)));
-  const auto v = evaluate(*kernel, std::array{x.lo, x.hi, y.lo, y.hi});
-  return {v[0], v[1], v[2] != 0};
+  const auto extended = extension(program_of(formula_of(op)), interval_form, type, diagnostics);
+  return bounds_over(*interpret(lower_elementary(*extended)), x, y);
 }
 
-struct Case {
+struct SpecialCase {
   Op op;
   Box1 x, y;
   double lo, hi;  // to five digits
@@ -178,7 +164,7 @@ struct Case {
 constexpr double pi = std::numbers::pi;
 
 // Poles, cuts, infinite operands, and angles beyond what is reduced.
-const Case cases[] = {
+const SpecialCase special_cases[] = {
     {Op::tan, {1, 2}, {}, -infinity, infinity, false},
     {Op::tan, {-1, 1}, {}, -1.55741, 1.55741, true},
     {Op::tan, {2, 4}, {}, -2.18504, 1.15782, true},
@@ -218,13 +204,13 @@ const Case cases[] = {
 
 TEST(ElementaryRules, exceptions) {
   for (const Type type : {f32, f64})
-    for (const Case& c : cases) {
+    for (const SpecialCase& c : special_cases) {
       const Bounds got = over(c.op, type, c.x, c.y);
       const auto near = [](double a, double b) {
         return a == b || std::abs(a - b) <= 2e-5 * std::max(1.0, std::abs(b));
       };
       EXPECT_TRUE(near(got.lo, c.lo) && near(got.hi, c.hi) && got.defined == c.defined)
-          << info(c.op).name << text(c.x) << text(c.y) << " is " << text({got.lo, got.hi}) << ' '
+          << info(c.op).name << to_text(c.x) << to_text(c.y) << " is " << to_text(Box1{got.lo, got.hi}) << ' '
           << got.defined;
     }
 }
@@ -242,8 +228,7 @@ TEST(ElementaryRules, ranges_fold) {
   Program f{.name = "f"};
   const Expr x = input(f, "x", f64), y = input(f, "y", f64);
   for (const Function& function : functions)
-    output(f, std::string(info(function.op).name),
-           info(function.op).arity == 1 ? make(function.op, x) : make(function.op, x, y));
+    output(f, std::string(info(function.op).name), formula_of(function.op)(x, y));
   const imp::Range box[] = {{0.25, 0.5}, {0.5, 2}};
   const auto known = ranges(f, box, f32);
   for (const Output& o : f.outputs) {

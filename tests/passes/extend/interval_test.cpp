@@ -1,37 +1,26 @@
 // Intervals enclose: every rule on random boxes with values at their ends, and what sets IEEE 1788
 // asks for at the exceptions.
+#include "ir/infinity.h"
 #include "passes/extend/forms.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <functional>
-
 #include "ir/text.h"
 #include "ir/verify.h"
 #include "passes/power.h"
 #include "passes/precision.h"
-#include "tests/support/boxes.h"
-#include "tests/support/evaluate.h"
-#include "tests/support/make.h"
+#include "tests/passes/extend/bounds.h"
+#include "tests/support/formula.h"
 
 namespace imp::test {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-struct Bounds {
-  double lo, hi;
-  bool defined;
-};
-
 // A formula of x and y with its extension, ready to run.
 class Extended {
  public:
-  Extended(const std::function<Expr(Expr, Expr)>& formula, Type type) {
-    Program f{.name = "f"};
-    const Expr x = input(f, "x", f64), y = input(f, "y", f64);
-    output(f, "f", formula(x, y));
+  Extended(const Formula& formula, Type type) {
+    const Program f = program_of(formula);
     point_ = interpret(reduce_powers(in_precision(f, f64)));
     Diagnostics diagnostics;
     auto extended = extension(f, interval_form, type, diagnostics);
@@ -42,10 +31,7 @@ class Extended {
   }
 
   double at(double x, double y) const { return evaluate(*point_, std::array{x, y})[0]; }
-  Bounds over(Box1 x, Box1 y) const {
-    const auto v = evaluate(*extension_, std::array{x.lo, x.hi, y.lo, y.hi});
-    return {v[0], v[1], v[2] != 0};
-  }
+  Bounds over(Box1 x, Box1 y) const { return bounds_over(*extension_, x, y); }
   const std::string& text() const { return text_; }
 
  private:
@@ -53,16 +39,9 @@ class Extended {
   std::string text_;
 };
 
-struct Formula {
-  const char* name;
-  std::function<Expr(Expr, Expr)> build;
-};
-
-Expr power(Expr x, double n) { return make(Op::powi, x, constant_like(x, n)); }
-
 // Each op on its own, so that one rounding in double is all that stands between the value and the
 // exact one: rounding to nearest never carries it over a bound that is a double.
-const Formula formulas[] = {
+const NamedFormula single_ops[] = {
     {"add", [](Expr x, Expr y) { return x + y; }},
     {"sub", [](Expr x, Expr y) { return x - y; }},
     {"mul", [](Expr x, Expr y) { return x * y; }},
@@ -95,7 +74,7 @@ const Formula formulas[] = {
 class EveryRule : public testing::TestWithParam<Type> {};
 
 TEST_P(EveryRule, encloses_every_value) {
-  for (const Formula& formula : formulas) {
+  for (const NamedFormula& formula : single_ops) {
     const Extended f(formula.build, GetParam());
     Boxes boxes(0x1e55);
     for (int i = 0; i < 1500; ++i) {
@@ -157,7 +136,7 @@ INSTANTIATE_TEST_SUITE_P(precision, EveryRule, testing::Values(f32, f64),
 
 struct Exception {
   const char* name;
-  std::function<Expr(Expr, Expr)> build;
+  Formula build;
   Box1 x, y;
   Bounds expected;
 };

@@ -11,18 +11,13 @@
 #include "tests/support/boxes.h"
 #include "tests/support/evaluate.h"
 #include "tests/support/every_form.h"
-#include "tests/support/make.h"
+#include "tests/support/formula.h"
 #include "tests/support/rounded_down.h"
 
 namespace imp::test {
 namespace {
 
-struct Formula {
-  const char* name;
-  std::function<Expr(Expr, Expr)> build;
-};
-
-const Formula formulas[] = {
+const NamedFormula mixed_formulas[] = {
     {"sum", [](Expr x, Expr y) { return x + y - 0.1 * x; }},
     {"product", [](Expr x, Expr y) { return x * y; }},
     {"square", [](Expr x, Expr y) { return x * x * y; }},
@@ -32,11 +27,8 @@ const Formula formulas[] = {
     {"reciprocal", [](Expr x, Expr y) { return 1.0 / (2.0 + x * x) + y; }},
     {"root", [](Expr x, Expr y) { return sqrt(abs(x)) * y; }},
     {"fma", [](Expr x, Expr y) { return fma(x, y, x); }},
-    {"powers",
-     [](Expr x, Expr y) {
-       return make(Op::powi, x, constant_like(x, 5)) + make(Op::powi, y, constant_like(x, 4));
-     }},
-    {"negative powers", [](Expr x, Expr y) { return make(Op::powi, x, constant_like(x, -3)) * y; }},
+    {"powers", [](Expr x, Expr y) { return power(x, 5) + power(y, 4); }},
+    {"negative powers", [](Expr x, Expr y) { return power(x, -3) * y; }},
     {"corners", [](Expr x, Expr y) { return max(x * y, abs(x) - y); }},
     {"branches", [](Expr x, Expr y) { return select(x < y, x * y, x + y); }},
     {"exponential", [](Expr x, Expr y) { return make(Op::exp, x) * y; }},
@@ -50,11 +42,9 @@ class PlainOps : public testing::TestWithParam<Inclusion> {};
 
 TEST_P(PlainOps, may_round_down) {
   std::size_t tried = 0;
-  for (const Formula& formula : formulas)
+  for (const NamedFormula& formula : mixed_formulas)
     for (const Type type : {f32, f64}) {
-      Program f{.name = "f"};
-      const Expr x = input(f, "x", f64), y = input(f, "y", f64);
-      output(f, "f", formula.build(x, y));
+      const Program f = program_of(formula.build);
       Diagnostics diagnostics;
       const auto enclosure = extension(f, *GetParam().enclose, type, diagnostics);
       ASSERT_EQ(enclosure.has_value(), !may_refuse(GetParam(), f)) << to_text(diagnostics);

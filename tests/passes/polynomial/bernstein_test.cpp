@@ -17,14 +17,12 @@
 namespace imp::test {
 namespace {
 
-constexpr std::size_t first[] = {0};
-
 using Way = std::optional<std::vector<Bernstein>>(const Program&, const InputBox&, Diagnostics&);
 
 BuildIntervals coefficients(Way& way) {
   return [&way](const Program& along, std::span<const Interval> inputs) {
     Diagnostics diagnostics;
-    const auto found = way(along, {inputs, first}, diagnostics);
+    const auto found = way(along, {inputs, first_input}, diagnostics);
     EXPECT_TRUE(found) << to_text(diagnostics);
     return found->front().coefficients;
   };

@@ -27,15 +27,15 @@ Exact exact_split(std::vector<Rational> row, const Rational& at) {
   return result;
 }
 
-enum class Way : std::uint8_t { anywhere, in_the_middle, at_a_number };
+enum class Cut : std::uint8_t { anywhere, in_the_middle, at_a_number };
 
-Halves split_by(Way way, std::span<const Interval> b, Expr at) {
-  if (way == Way::in_the_middle) return split_in_the_middle(b);
-  return way == Way::anywhere ? split(b, point(at, {true, true})) : split_at(b, at, 1.0 - at);
+Halves split_by(Cut cut, std::span<const Interval> b, Expr at) {
+  if (cut == Cut::in_the_middle) return split_in_the_middle(b);
+  return cut == Cut::anywhere ? split(b, point(at, {true, true})) : split_at(b, at, 1.0 - at);
 }
 
 // Coefficients are boxes, of which the exact ones are any points.
-void expect_enclosed(std::size_t count, Type type, Way way) {
+void expect_enclosed(std::size_t count, Type type, Cut cut) {
   Program kernel{.name = "kernel"};
   std::vector<Interval> b;
   for (std::size_t i = 0; i < count; ++i) {
@@ -43,12 +43,12 @@ void expect_enclosed(std::size_t count, Type type, Way way) {
     b.push_back(interval(-lo, hi));
   }
   const Expr at = input(kernel, "at", type);
-  const Halves halves = split_by(way, b, at);
+  const Halves halves = split_by(cut, b, at);
   for (const auto* half : {&halves.left, &halves.right})
     for (const Interval& x : *half) output(kernel, "nlo", x.nlo), output(kernel, "hi", x.hi);
   const auto compiled = interpret(kernel);
 
-  Boxes boxes(count + 100 * static_cast<std::size_t>(way));
+  Boxes boxes(count + 100 * static_cast<std::size_t>(cut));
   const auto number = [&](double x) {
     x = std::clamp(x, -0x1p100, 0x1p100);
     return type == f32 ? static_cast<double>(static_cast<float>(x)) : x;
@@ -62,8 +62,8 @@ void expect_enclosed(std::size_t count, Type type, Way way) {
       exact.emplace_back(number(boxes.inside(box)));
     }
     double share = boxes.pick(6) == 0 ? 1.0 : number(boxes.between(0, 1));
-    if (way == Way::in_the_middle) share = 0.5;
-    if (way == Way::at_a_number) share = std::floor(share * 0x1p24) * 0x1p-24;  // 1 - share is exact
+    if (cut == Cut::in_the_middle) share = 0.5;
+    if (cut == Cut::at_a_number) share = std::floor(share * 0x1p24) * 0x1p-24;  // 1 - share is exact
     numbers.push_back(share);
     const Exact parts = exact_split(exact, Rational(share));
     const auto found = evaluate(*compiled, numbers);
@@ -78,8 +78,8 @@ void expect_enclosed(std::size_t count, Type type, Way way) {
 TEST(DeCasteljau, encloses_both_parts) {
   for (const Type type : {f32, f64})
     for (const std::size_t count : {1u, 2u, 3u, 5u, 9u, 13u})
-      for (const Way way : {Way::anywhere, Way::in_the_middle, Way::at_a_number})
-        expect_enclosed(count, type, way);
+      for (const Cut cut : {Cut::anywhere, Cut::in_the_middle, Cut::at_a_number})
+        expect_enclosed(count, type, cut);
 }
 
 TEST(DeCasteljau, is_exact_where_no_rounding_is) {

@@ -21,8 +21,6 @@ struct Formula {
   std::uint32_t total, in_x, in_y;
 };
 
-Expr power(Expr a, double n) { return make(Op::powi, a, constant_like(a, n)); }
-
 const Formula polynomials[] = {
     {"constant", [](Expr x, Expr, Expr) { return one(x); }, 0, 0, 0},
     {"variable", [](Expr x, Expr, Expr) { return x; }, 1, 1, 0},

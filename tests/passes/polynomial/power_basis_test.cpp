@@ -14,14 +14,12 @@
 namespace imp::test {
 namespace {
 
-constexpr std::size_t first[] = {0};
-
 // In s itself: what the piece is plays no part.
 std::vector<Interval> in_s(const Program& along, std::span<const Interval> inputs) {
   Diagnostics diagnostics;
   const Expr like = inputs[1].hi;
   const Substitution itself{{variable(0, point(one(like)))}};
-  const auto found = power_basis(along, {inputs, first}, itself, diagnostics);
+  const auto found = power_basis(along, {inputs, first_input}, itself, diagnostics);
   EXPECT_TRUE(found) << to_text(diagnostics);
   const std::uint32_t degree = found->front().empty() ? 0 : found->front().rbegin()->first[0];
   return in_order(found->front(), degree, like);
@@ -63,7 +61,7 @@ std::string coefficients_of(const std::function<Expr(Expr x, Expr w)>& formula, 
   const Interval inputs[] = {interval(-lo, hi), interval(-lo, hi)};
   const Substitution itself{{variable(0, point(one(lo)))}};
   Diagnostics diagnostics;
-  const auto found = power_basis(f, {inputs, first}, itself, diagnostics);
+  const auto found = power_basis(f, {inputs, first_input}, itself, diagnostics);
   if (!found) return to_text(diagnostics);
   for (const auto& [powers, value] : found->front()) {
     output(kernel, "nlo", value.nlo), output(kernel, "hi", value.hi);
@@ -83,7 +81,6 @@ std::string coefficients_of(const std::function<Expr(Expr x, Expr w)>& formula, 
 }
 
 TEST(PowerBasisOf, small_examples) {
-  const auto power = [](Expr a, double n) { return make(Op::powi, a, constant_like(a, n)); };
   const auto at = [](double lo, double hi, const std::function<Expr(Expr, Expr)>& formula) {
     return coefficients_of(formula, lo, hi);
   };

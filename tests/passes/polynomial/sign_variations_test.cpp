@@ -64,7 +64,6 @@ TEST(SignVariations, are_the_most_that_bounds_allow) {
 
 // Products of x - r and of what is positive, along rays: how many of the r a piece holds is known.
 TEST(SignVariations, are_no_fewer_than_the_zeros_within) {
-  constexpr std::size_t first[] = {0};
   Random random(0x2e205);
   for (int round = 0; round < 25; ++round)
     for (const Type type : {f32, f64}) {
@@ -82,7 +81,7 @@ TEST(SignVariations, are_no_fewer_than_the_zeros_within) {
       for (auto* way : {bernstein_by_samples, bernstein_by_powers, bernstein_by_products}) {
         const PieceKernel kernel(f, type, [&](const Program& along, std::span<const Interval> inputs) {
           Diagnostics diagnostics;
-          const auto found = way(along, {inputs, first}, diagnostics);
+          const auto found = way(along, {inputs, first_input}, diagnostics);
           return std::vector{point(most_sign_variations(found->front().coefficients))};
         });
         for (int i = 0; i < 30; ++i) {
