@@ -5,9 +5,9 @@
 #include <random>
 
 #include "backends/llvm/target.h"
+#include "bench/clocks.h"
 #include "bench/rivals.h"
 #include "bench/tables.h"
-#include "bench/thread_clock.h"
 #include "ir/expr.h"
 #include "passes/elementary/bounds.h"
 #include "runtime/kernel.h"

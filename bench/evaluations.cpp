@@ -7,10 +7,10 @@
 #include <cmath>
 
 #include "backends/llvm/target.h"
+#include "bench/clocks.h"
 #include "bench/peak.h"
 #include "bench/surfaces.h"
 #include "bench/tables.h"
-#include "bench/thread_clock.h"
 #include "ir/loop.h"
 #include "passes/along_ray.h"
 #include "passes/differentiate.h"

@@ -5,12 +5,10 @@
 // same (one thread of 223 GFLOP/s), scaled to this machine by its peak.
 #include <fmt/format.h>
 
-#include <chrono>
-
+#include "bench/clocks.h"
 #include "bench/peak.h"
 #include "bench/surfaces.h"
 #include "bench/tables.h"
-#include "bench/thread_clock.h"
 
 namespace imp::bench {
 namespace {
@@ -42,16 +40,6 @@ constexpr Row rows[] = {
 };
 
 constexpr int rounds = 5;
-
-class WallClock {
- public:
-  double milliseconds() const {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 struct Measured {
   std::vector<double> milliseconds;

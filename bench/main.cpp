@@ -14,10 +14,9 @@ struct Table {
 };
 
 constexpr Table tables[] = {
-    {"knoll", imp::bench::print_knoll_table},
-    {"first-pixel", imp::bench::print_first_pixel_table},
-    {"elementary", imp::bench::print_elementary_table},
-    {"evaluations", imp::bench::print_evaluations_table},
+    {"knoll", imp::bench::print_knoll_table},           {"rates", imp::bench::print_rates_table},
+    {"examples", imp::bench::print_examples_table},     {"first-pixel", imp::bench::print_first_pixel_table},
+    {"elementary", imp::bench::print_elementary_table}, {"evaluations", imp::bench::print_evaluations_table},
 };
 
 int print_table(std::string_view name) {

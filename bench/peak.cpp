@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "bench/thread_clock.h"
+#include "bench/clocks.h"
 
 namespace imp::bench {
 namespace {

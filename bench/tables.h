@@ -11,6 +11,8 @@ namespace imp::bench {
 inline std::string_view only_target;  // of --target; empty: every one that the table has and that runs here
 
 void print_knoll_table();        // frames of Knoll et al. 2009, Table 1
+void print_rates_table();        // frames a second as the command draws them
+void print_examples_table();     // what every example takes, and what is left undecided
 void print_first_pixel_table();  // from the start of the process to the first pixel
 void print_elementary_table();   // elementary functions, a lane
 void print_evaluations_table();  // values, derivatives and enclosures, a lane

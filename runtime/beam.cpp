@@ -16,7 +16,7 @@ namespace imp {
 namespace {
 
 constexpr std::uint32_t slabs = 16;
-constexpr std::uint32_t tile_cells = 4;   // along a side of a tile
+constexpr std::uint32_t cell_sides[] = {64, 16, beam_cell};  // of the cells of each stage, in pixels
 constexpr double longest_direction = 16;  // that is expected; longer ones leave a beam unknown
 
 // What a slab is to a surface, beside 1 and -1: excluded, and the sign of f.
@@ -124,11 +124,13 @@ class Stages {
 
   std::optional<Pipeline> build(Diagnostics& diagnostics) {
     Pipeline stages;
-    auto tiles = classes("tile", true, diagnostics);
-    auto cells = classes("cell", false, diagnostics);
-    if (!tiles || !cells) return std::nullopt;
-    stages.push_back({{1, 1, slabs}, *std::move(tiles)});
-    stages.push_back({{tile_cells, tile_cells, slabs}, *std::move(cells)});
+    std::uint32_t parent = cell_sides[0];
+    for (const std::uint32_t side : cell_sides) {
+      auto cells = classes(side, diagnostics);
+      if (!cells) return std::nullopt;
+      stages.push_back({{parent / side, parent / side, slabs}, *std::move(cells)});
+      parent = side;
+    }
     stages.push_back({{1, 1, 1}, crossings()});
     return stages;
   }
@@ -229,10 +231,11 @@ class Stages {
 
   static const Inclusion& inclusion() { return *inclusion_named("af1-ia"); }
 
-  // The classes of the slabs of a cell. The first stage cuts the whole domain; the next one what its parent
-  // does not exclude for all targets, with the signs in front of that.
-  std::optional<Program> classes(const char* name, bool first, Diagnostics& diagnostics) {
-    Program program{.name = name};
+  // The classes of the slabs of a cell. The first stage cuts the whole domain; others what the parent does not
+  // exclude for all targets, with the signs in front of that.
+  std::optional<Program> classes(std::uint32_t side, Diagnostics& diagnostics) {
+    const bool first = side == cell_sides[0];
+    Program program{.name = "beam" + std::to_string(side)};
     const CameraInputs camera = camera_inputs(program);
     const Expr pad_place = input(program, "pad.place", Rate::frame),
                pad_way = input(program, "pad.way", Rate::frame);
@@ -256,11 +259,12 @@ class Stages {
           end = max(end, select(left, place + 1.0, zero(near)));
         }
       for (std::size_t t = 0; t < targets_.size(); ++t)
-        before[t] = select(begin > 0, sign_of(entry(tables[t], begin - 1.0)), before[t]);
+        before[t] = select(begin > 0, sign_of(entry(tables[t], begin - 1.0)),
+                           entry(table(program, of_surface("before", t)), 0UL));
       near = parent.at(begin);
       far = parent.at(end);
     }
-    const double size = first ? tile_cells * beam_cell : beam_cell;
+    const double size = side;
     const Depths depths{near, (1.0 / slabs) * (far - near)};
     const auto result = classify(program,
                                  slab(camera, x0 + size * column, y0 + size * row, size, depths.at(k),

@@ -1,13 +1,13 @@
 // Beams: all rays of a tile at once, in slabs of depth, from coarse to fine.
 //
 // A tile is 64 x 64 pixels. Its beam is cut into 16 slabs; what is not excluded of it is cut again into 16 slabs
-// for each cell of 16 x 16 pixels. f and its derivative along the rays are enclosed over a whole slab (affine
-// forms over two picture axes and the depth: Flórez, Sbert, Sainz and Vehí 2008 cast beams with interval
-// methods), and tell of what class it is for every ray:
+// for each cell of 16 x 16 pixels, and once more for each of 8 x 8. f and its derivative along the rays are enclosed
+// over a whole slab (affine forms over two picture axes and the depth: Flórez, Sbert, Sainz and Vehí 2008 cast beams
+// with interval methods), and tell of what class it is for every ray:
 //
 //    excluded, with the sign of f | void: f has no value | monotone: df/ds excludes 0 | unknown
 //
-// A third stage reads the classes front to back. A change of sign across monotone slabs is the first hit of every ray
+// A last stage reads the classes front to back. A change of sign across monotone slabs is the first hit of every ray
 // that has these slabs in its domain; equal signs are no root, and are left behind.
 //
 // Lanes are slabs, so no lane waits for another; a slab costs one enclosure for up to 4096 rays.
@@ -42,6 +42,6 @@ struct Beam {
 Beam beam_inputs(Program& program, std::size_t index);
 
 // The pixels of the cell they are for.
-inline constexpr std::uint32_t beam_cell = 16;
+inline constexpr std::uint32_t beam_cell = 8;
 
 }  // namespace imp

@@ -10,6 +10,7 @@
 #include "passes/surface_passes.h"
 #include "runtime/camera.h"
 #include "runtime/numbers.h"
+#include "runtime/search/parts/refine.h"
 #include "runtime/search/segment.h"
 
 namespace imp {
@@ -98,8 +99,9 @@ std::optional<Program> cast_program(const Surface& surface, const Search& search
   const auto found = search.build(result, *f, limits, diagnostics);
   if (!found) return std::nullopt;
 
+  const Expr s = refine(result, *f, found->bracket);
   std::vector<Expr> place;
-  for (std::size_t i = 0; i < 3; ++i) place.push_back(segment.origin[i] + found->s * segment.direction[i]);
+  for (std::size_t i = 0; i < 3; ++i) place.push_back(segment.origin[i] + s * segment.direction[i]);
   for (const Uniform& each : uniforms) place.push_back(each.value);
   const auto values = inline_program(in_precision(*gradient_of_f, precision), place);
   const Vector normal = normalized({values[1], values[2], values[3]});
@@ -108,7 +110,7 @@ std::optional<Program> cast_program(const Surface& surface, const Search& search
   const auto output = [&](const char* name, Expr value) { result.outputs.push_back({name, value.id}); };
   const auto where_found = [&](Expr value) { return select(found->something, value, nothing); };
   output("verdict", to(f64, found->verdict));
-  output("t", where_found(tmin + to(f64, found->s) * (tmax - tmin)));
+  output("t", where_found(tmin + to(f64, s) * (tmax - tmin)));
   output("nx", where_found(to(f64, normal[0])));
   output("ny", where_found(to(f64, normal[1])));
   output("nz", where_found(to(f64, normal[2])));

@@ -1,7 +1,5 @@
 #include "runtime/kernel.h"
 
-#include <chrono>
-
 #include "backends/glsl/kernel.h"
 #include "backends/llvm/compile.h"
 #include "ir/assert.h"
@@ -12,10 +10,6 @@ namespace imp {
 namespace {
 
 constexpr Pass to_nearest{"round-to-nearest", Preserves::value, round_to_nearest};
-
-double milliseconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
 
 std::expected<std::unique_ptr<Kernel>, Refusal> compile_for_cpu(const Program& program,
                                                                 const std::string& name, Timings* timings) {
@@ -34,10 +28,7 @@ std::expected<std::unique_ptr<Kernel>, Refusal> compile_for_cpu(const Program& p
 }
 
 std::expected<std::unique_ptr<Kernel>, Refusal> compile_for_gl(Program program, Timings* timings) {
-  const auto start = std::chrono::steady_clock::now();
-  auto kernel = compile_glsl(std::move(program));
-  if (timings) timings->entries.push_back({"compile shader", milliseconds_since(start)});
-  return kernel;
+  return timed(timings, "compile shader", [&] { return compile_glsl(std::move(program)); });
 }
 
 }  // namespace
@@ -62,9 +53,13 @@ Program lower(Program program, const KernelOptions& options, PassTrace* trace) {
 
 std::expected<std::unique_ptr<Kernel>, Refusal> make_kernel(Program program, const KernelOptions& options,
                                                             Timings* timings) {
-  const auto start = std::chrono::steady_clock::now();
-  program = lower(std::move(program), options);
-  if (timings) timings->entries.push_back({"passes", milliseconds_since(start)});
+  program = timed(timings, "passes", [&] { return lower(std::move(program), options); });
+  return make_lowered_kernel(std::move(program), options, timings);
+}
+
+std::expected<std::unique_ptr<Kernel>, Refusal> make_lowered_kernel(Program program,
+                                                                    const KernelOptions& options,
+                                                                    Timings* timings) {
   switch (options.backend) {
     case Backend::llvm:        return compile_for_cpu(program, options.target, timings);
     case Backend::glsl:        return compile_for_gl(std::move(program), timings);

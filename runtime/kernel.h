@@ -1,6 +1,8 @@
 // From a Program to a Kernel: the passes, then a backend.
 #pragma once
 
+#include <algorithm>
+#include <chrono>
 #include <expected>
 #include <memory>
 #include <span>
@@ -23,6 +25,21 @@ struct Timings {
   std::vector<Entry> entries;
 };
 
+// What `work` returns; the time it took is entered under this name, with what it took before.
+template <class Work>
+auto timed(Timings* timings, const std::string& name, const Work& work) {
+  const auto start = std::chrono::steady_clock::now();
+  auto result = work();
+  const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
+  if (timings == nullptr) return result;
+  const auto entry = std::ranges::find(timings->entries, name, &Timings::Entry::name);
+  if (entry != timings->entries.end())
+    entry->milliseconds += spent.count();
+  else
+    timings->entries.push_back({name, spent.count()});
+  return result;
+}
+
 // What `lower` runs, in order.
 std::vector<Pass> passes_for(const KernelOptions& options);
 
@@ -35,6 +52,11 @@ Program lower(Program program, const KernelOptions& options, PassTrace* trace = 
 // Errors say what is not to be had and what would be.
 std::expected<std::unique_ptr<Kernel>, Refusal> make_kernel(Program program, const KernelOptions& options,
                                                             Timings* timings = nullptr);
+
+// Of what `lower` returned.
+std::expected<std::unique_ptr<Kernel>, Refusal> make_lowered_kernel(Program program,
+                                                                    const KernelOptions& options,
+                                                                    Timings* timings = nullptr);
 
 // One input column: a value for every row, or a single one for all.
 using Column = std::vector<double>;

@@ -4,26 +4,62 @@
 
 #include "ir/assert.h"
 #include "passes/polynomial/degree.h"
+#include "passes/rewrite.h"
 
 namespace imp {
 namespace {
 
-bool is_polynomial(const Program& f) {
+// Where the coefficients along a ray cost more than they tell.
+constexpr std::uint32_t highest_degree = 12;
+constexpr double least_operations = 1.5;  // of f, for each degree
+
+// The total degree of a polynomial.
+std::optional<std::uint32_t> degree(const Program& f) {
   constexpr std::size_t variables[] = {0, 1, 2};
   Diagnostics unused;
-  return degrees(f, variables, unused).has_value();
+  const auto all = degrees(f, variables, unused);
+  if (!all) return std::nullopt;
+  return all->front().total;
+}
+
+// Of f at a point; a Chebyshev polynomial takes about as many as its degree.
+double operations(const Program& f) {
+  const std::vector<bool> live = live_nodes(f);
+  double count = 0;
+  for (std::uint32_t i = 0; i < live.size(); ++i) {
+    const Node node = f.graph[Id{i}];
+    if (!live[i] || node.args.empty()) continue;
+    count += node.op == Op::chebyshev ? f.graph.number(node.args[1]).value_or(1) : 1;
+  }
+  return count;
+}
+
+void choose_search(Method& method, const Program& f, const KernelOptions& kernel) {
+  method.search = search_named("isolate");
+  method.reason = "where df/ds excludes 0, signs at two ends decide";
+  const auto n = degree(f);
+  if (!n || kernel.backend == Backend::glsl || kernel.precision == f64) return;
+  const double count = operations(f);
+  const std::string found = fmt::format("degree {}, {} operations: ", *n, count);
+  if (*n <= highest_degree && count >= least_operations * *n) {
+    method.search = search_named("bernstein");
+    method.reason = found + "the signs of a few coefficients along a ray decide";
+  } else {
+    method.reason = found + "f costs less than its coefficients along a ray; " + method.reason;
+  }
 }
 
 }  // namespace
 
+Wish second_wish(const Wish& wish) {
+  return {wish.search ? wish.search : search_named("isolate"), wish.inclusion};
+}
+
 Method choose_method(const Program& f, const Wish& wish, const KernelOptions& kernel) {
   Method method{wish.search, wish.inclusion, !wish.search && kernel.precision == f32, {}};
-  if (!method.search) {
-    method.search = search_named("isolate");
-    method.reason = "where df/ds excludes 0, signs at two ends decide";
-  }
+  if (!method.search) choose_search(method, f, kernel);
   if (!method.inclusion) {
-    const bool too_long = kernel.backend == Backend::glsl && !is_polynomial(f);
+    const bool too_long = kernel.backend == Backend::glsl && !degree(f);
     method.inclusion = inclusion_named(too_long ? "ia" : "auto");
     if (too_long) method.reason += "; intervals, as affine forms of such a formula make a shader too long";
   }

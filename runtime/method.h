@@ -18,11 +18,15 @@ struct Wish {
 struct Method {
   const Search* search;
   const Inclusion* inclusion;
-  bool again_in_double;  // where floats decide nothing
-  std::string reason;    // of what was chosen here, for the reader; empty where all was asked for
+  bool again;          // whether there is a second look at what stays undecided
+  std::string reason;  // of what was chosen here, for the reader; empty where all was asked for
 };
 
-// For `f` (f64) in a kernel like this.
+// What is asked for in a second look, in double, where this was asked for in floats: a strategy that looks at other
+// pieces than most polynomials get at first.
+Wish second_wish(const Wish& wish);
+
+// For `f` (f64, simplified) in a kernel like this.
 Method choose_method(const Program& f, const Wish& wish, const KernelOptions& kernel);
 
 // "search isolate, inclusion ia (auto: …)"

@@ -100,14 +100,17 @@ class Pixel {
 
   // The strategy is for those rays on which the beam has not found all.
   std::optional<Found> find_behind_beam(RayFunction f, const Piece& piece, const Search& search) {
-    const Expr start = zero(f.like);
-    const Expr s = refine(program_, f, start, one(start), to(type_, piece.sign), piece.crosses);
     f.exists = f.exists && !piece.crosses;
     auto found = search.build(program_, f, options_.limits, diagnostics_);
     if (!found) return std::nullopt;
-    found->verdict = select(piece.crosses, constant_like(start, verdict_hit), found->verdict);
+    const auto instead = [&](Expr crossing, Expr otherwise) {
+      return select(piece.crosses, crossing, otherwise);
+    };
+    Bracket& bracket = found->bracket;
+    bracket = {instead(zero(f.like), bracket.a), instead(one(f.like), bracket.b),
+               instead(to(type_, piece.sign), bracket.sign_a), piece.crosses || bracket.changes};
+    found->verdict = instead(constant_like(f.like, verdict_hit), found->verdict);
     found->something = found->something || piece.crosses;
-    found->s = select(piece.crosses, s, found->s);
     return found;
   }
 
@@ -124,15 +127,16 @@ class Pixel {
                               : method.search->build(program_, *along, options_.limits, diagnostics_);
     if (!found) return std::nullopt;
 
+    const Expr s = refine(program_, *along, found->bracket);
     std::vector<Expr> place;
-    for (std::size_t i = 0; i < 3; ++i) place.push_back(segment.origin[i] + found->s * segment.direction[i]);
+    for (std::size_t i = 0; i < 3; ++i) place.push_back(segment.origin[i] + s * segment.direction[i]);
     for (const Uniform& each : uniforms_) place.push_back(each.value);
     const auto values = inline_program(in_precision(*slopes, type_), place);
     Vector normal = to(f32, normalized({values[1], values[2], values[3]}));
     const Truth regular = dot(normal, normal) > 0.5;
     for (std::size_t i = 0; i < 3; ++i) normal[i] = select(regular, normal[i], -ray_.direction[i]);
     return Sight{to(f32, found->verdict), to(f32, found->steps), found->something,
-                 piece.near + to(f32, found->s) * (piece.far - piece.near), normal};
+                 piece.near + to(f32, s) * (piece.far - piece.near), normal};
   }
 
   // The first of two. A hit is certified if the other surface is certain to lie behind it.

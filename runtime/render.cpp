@@ -1,10 +1,12 @@
 #include "runtime/render.h"
 
 #include <algorithm>
-#include <chrono>
+#include <atomic>
+#include <expected>
 #include <limits>
 #include <map>
 
+#include "passes/surface_passes.h"
 #include "runtime/beam.h"
 #include "runtime/pixel.h"
 #include "runtime/stages.h"
@@ -14,6 +16,9 @@ namespace imp {
 namespace {
 
 constexpr std::uint32_t tile = 64;
+
+// Beams of more operations take longer to compile than they save.
+constexpr std::size_t most_beam_operations = 8000;
 
 // Where an output of the pixel's Program goes.
 struct Destination {
@@ -51,6 +56,45 @@ struct Undecided {
   }
 };
 
+// The stages as a backend gets them.
+std::optional<Pipeline> lowered_stages(const Model& model, const RenderOptions& options, bool beams,
+                                       Diagnostics& diagnostics, Timings* timings) {
+  const auto lowered = [&](Program program) {
+    return timed(timings, "passes", [&] { return lower(std::move(program), options.kernel); });
+  };
+  auto stages = timed(timings, "compose",
+                      [&] { return beams ? beam_stages(model, options, diagnostics) : Pipeline{}; });
+  if (!stages) return std::nullopt;
+  for (Stage& stage : *stages) {
+    stage.program = lowered(std::move(stage.program));
+    if (stage.program.graph.size() > most_beam_operations)
+      return lowered_stages(model, options, false, diagnostics, timings);
+  }
+  beams = !stages->empty();
+  auto pixel = timed(timings, "compose", [&] { return pixel_program(model, options, diagnostics, beams); });
+  if (!pixel) return std::nullopt;
+  const std::uint32_t side = beams ? beam_cell : tile;
+  stages->push_back({{side, side, 1}, lowered(*std::move(pixel))});
+  return stages;
+}
+
+// All at once, by all workers.
+std::expected<std::vector<RunnableStage>, Refusal> compiled(Pipeline stages, const KernelOptions& options,
+                                                            Workers& workers) {
+  std::vector<std::expected<std::unique_ptr<Kernel>, Refusal>> kernels(stages.size());
+  std::atomic<std::size_t> next = 0;
+  workers.run([&] {
+    for (std::size_t i = next++; i < stages.size(); i = next++)
+      kernels[i] = make_lowered_kernel(std::move(stages[i].program), options);
+  });
+  std::vector<RunnableStage> result;
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    if (!kernels[i]) return std::unexpected(std::move(kernels[i].error()));
+    result.push_back({stages[i].cells, *std::move(kernels[i])});
+  }
+  return result;
+}
+
 }  // namespace
 
 std::size_t Picture::count(double which) const {
@@ -59,14 +103,13 @@ std::size_t Picture::count(double which) const {
 
 Renderer::Renderer(const Model& model, RenderOptions options, std::vector<RunnableStage> stages)
     : model_(&model), options_(std::move(options)), stages_(std::move(stages)) {
-  if (!options_.workers) options_.workers = std::make_shared<Workers>();
-  if (std::ranges::any_of(methods(), &Method::again_in_double)) in_double_ = std::make_shared<InDouble>();
+  if (std::ranges::any_of(methods(), &Method::again)) in_double_ = std::make_shared<InDouble>();
 }
 
 std::vector<Method> Renderer::methods() const {
   std::vector<Method> result;
   for (const std::size_t index : drawn_surfaces(*model_, options_))
-    result.push_back(choose_method(model_->surfaces[index].f, options_.wish, options_.kernel));
+    result.push_back(choose_method(simplified(model_->surfaces[index].f), options_.wish, options_.kernel));
   return result;
 }
 
@@ -75,6 +118,7 @@ const Kernel* Renderer::in_double() const {
   std::call_once(in_double_->made, [&] {
     RenderOptions options = options_;
     options.kernel.precision = f64;
+    options.wish = second_wish(options.wish);
     Diagnostics unused;
     auto pixel = pixel_program(*model_, options, unused);
     if (!pixel) return;
@@ -86,28 +130,17 @@ const Kernel* Renderer::in_double() const {
 
 std::optional<Renderer> Renderer::make(const Model& model, const RenderOptions& options,
                                        Diagnostics& diagnostics, Timings* timings) {
-  const auto start = std::chrono::steady_clock::now();
-  auto pipeline = options.tiles ? beam_stages(model, options, diagnostics) : Pipeline{};
-  if (!pipeline) return std::nullopt;
-  const bool beams = !pipeline->empty();
-  auto pixel = pixel_program(model, options, diagnostics, beams);
-  if (!pixel) return std::nullopt;
-  const std::uint32_t side = beams ? beam_cell : tile;
-  pipeline->push_back({{side, side, 1}, *std::move(pixel)});
-  if (timings)
-    timings->entries.push_back(
-        {"compose",
-         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count()});
-  std::vector<RunnableStage> stages;
-  for (Stage& stage : *pipeline) {
-    auto kernel = make_kernel(std::move(stage.program), options.kernel, timings);
-    if (!kernel) {
-      diagnostics.error(kernel.error().span, kernel.error().message);
-      return std::nullopt;
-    }
-    stages.push_back({stage.cells, *std::move(kernel)});
+  auto stages = lowered_stages(model, options, options.tiles, diagnostics, timings);
+  if (!stages) return std::nullopt;
+  RenderOptions shared = options;
+  if (!shared.workers) shared.workers = std::make_shared<Workers>();
+  auto kernels = timed(timings, "compile",
+                       [&] { return compiled(*std::move(stages), options.kernel, *shared.workers); });
+  if (!kernels) {
+    diagnostics.error(kernels.error().span, kernels.error().message);
+    return std::nullopt;
   }
-  return Renderer(model, options, std::move(stages));
+  return Renderer(model, std::move(shared), *std::move(kernels));
 }
 
 Picture Renderer::frame(const UniformValues& uniforms, std::stop_token stop,

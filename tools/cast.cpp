@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "passes/surface_passes.h"
 #include "runtime/evaluate.h"
 #include "tools/rows.h"
 
@@ -30,11 +31,13 @@ struct Cast {
     job.rows = Rows::rays;
     job.columns = {"verdict", "t", "nx", "ny", "nz", "steps"};
     job.write = write;
-    job.method = [this](const Surface& surface) {
-      return choose_method(surface.f, options.wish, options.kernel);
+    const auto method_for = [this](const Surface& surface, const Wish& wish) {
+      return choose_method(simplified(surface.f), wish, options.kernel);
     };
-    job.program = [this](const Surface& surface, Type precision, Diagnostics& diagnostics) {
-      const Method method = job.method(surface);
+    job.method = [this, method_for](const Surface& surface) { return method_for(surface, options.wish); };
+    job.program = [this, method_for](const Surface& surface, const Wish& wish, Type precision,
+                                     Diagnostics& diagnostics) {
+      const Method method = method_for(surface, wish);
       return cast_program(surface, *method.search, *method.inclusion, options.limits, precision, diagnostics);
     };
     return run_table(job, options);

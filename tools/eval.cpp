@@ -32,7 +32,7 @@ struct Eval {
     job.rows = over_boxes(evaluation) ? Rows::boxes : Rows::points;
     job.columns = columns_of(evaluation);
     job.write = write_rows;
-    job.program = [this](const Surface& surface, Type precision, Diagnostics& diagnostics) {
+    job.program = [this](const Surface& surface, const Wish&, Type precision, Diagnostics& diagnostics) {
       return evaluation_program(surface, evaluation, precision, diagnostics, options.named_inclusion);
     };
     return run_table(job, options);

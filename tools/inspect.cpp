@@ -105,7 +105,8 @@ struct Inspect {
     if (!surface) return std::nullopt;
     if (program == "pixel") return pixel(model, {*surface}, diagnostics);
     if (program == "cast") {
-      const Method method = choose_method(model.surfaces[*surface].f, options.wish, options.kernel);
+      const Method method =
+          choose_method(simplified(model.surfaces[*surface].f), options.wish, options.kernel);
       return cast_program(model.surfaces[*surface], *method.search, *method.inclusion, options.limits,
                           precision, diagnostics);
     }
@@ -120,7 +121,8 @@ struct Inspect {
     for (const Surface& surface : model.surfaces) {
       if (!options.surface.empty() && surface.name != options.surface) continue;
       const std::string of = model.surfaces.size() == 1 ? "" : surface.name + ": ";
-      text += fmt::format("# {}{}\n", of, to_text(choose_method(surface.f, options.wish, options.kernel)));
+      text += fmt::format("# {}{}\n", of,
+                          to_text(choose_method(simplified(surface.f), options.wish, options.kernel)));
     }
     return text;
   }

@@ -129,7 +129,7 @@ bool run(const TableJob& job, const Options& options, Diagnostics& diagnostics) 
 
   const Stopwatch building;
   const Surface& chosen = model->surfaces[*surface];
-  auto program = job.program(chosen, options.kernel.precision, diagnostics);
+  auto program = job.program(chosen, options.wish, options.kernel.precision, diagnostics);
   if (!program) return false;
   time("build program", building);
   const auto kernel = make_kernel(std::move(*program), options.kernel, &timings);
@@ -143,12 +143,12 @@ bool run(const TableJob& job, const Options& options, Diagnostics& diagnostics) 
                                   : run_rows(**kernel, inputs.columns, csv->rows());
   std::unique_ptr<Kernel> in_double;
   const auto method = job.method ? std::optional(job.method(chosen)) : std::nullopt;
-  if (method && method->again_in_double)
+  if (method && method->again)
     look_again(outputs, (*kernel)->program(), inputs.columns, csv->rows(), [&] {
       KernelOptions finer = options.kernel;
       finer.precision = f64;
       Diagnostics unused;
-      if (auto again = job.program(chosen, f64, unused))
+      if (auto again = job.program(chosen, second_wish(options.wish), f64, unused))
         if (auto made = make_kernel(*std::move(again), finer)) in_double = *std::move(made);
       return in_double.get();
     });

@@ -24,8 +24,8 @@ struct TableJob {
   Rows rows = Rows::points;
   std::vector<std::string_view> columns;  // appended
   // The Program over the columns of such rows, then every uniform (two ends each, for boxes), in numbers of
-  // a type.
-  std::function<std::optional<Program>(const Surface&, Type, Diagnostics&)> program;
+  // a type. The wish is for rays.
+  std::function<std::optional<Program>(const Surface&, const Wish&, Type, Diagnostics&)> program;
   // For rays: how they are searched.
   std::function<Method(const Surface&)> method;
   // Appends a row's answers, each after a comma.

@@ -96,7 +96,7 @@ std::optional<Found> isolate(Program& program, const RayFunction& f, const Searc
   loop.again_while(!ends_search && !too_long && (!at_end || probes_end));
 
   const Truth found = loop.result(open);
-  return answer(program, f,
+  return answer(f,
                 {.found = found,
                  .a = loop.result(run),
                  .b = loop.result(s),

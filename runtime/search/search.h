@@ -76,11 +76,18 @@ constexpr double longest_run(double epsilon) {
 // The verdicts of a kernel, as numbers.
 inline constexpr double verdict_hit = 1, verdict_miss = 0, verdict_undecided = -1;
 
+// A piece [a, b] of the ray. If `changes`, f has the sign `sign_a` at a and the other one at b.
+struct Bracket {
+  Expr a, b;
+  Expr sign_a;
+  Truth changes;
+};
+
 struct Found {
   Expr verdict;
-  Truth something;  // s holds a root, certified or not
-  Expr s;
-  Expr steps;  // evaluations of the inclusion
+  Truth something;  // there may be a root, certified or not,
+  Bracket bracket;  // in here: to be refined
+  Expr steps;       // evaluations of the inclusion
 };
 
 // Errors say why the strategy is not for this f, and what is.

@@ -91,7 +91,7 @@ std::optional<Found> segment_tracing(Program& program, const RayFunction& f, con
 
   const Truth found = loop.result(open);
   const Expr a = loop.result(run), b = loop.result(s);
-  return answer(program, f,
+  return answer(f,
                 {.found = found,
                  .a = a,
                  .b = b,

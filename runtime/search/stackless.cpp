@@ -75,7 +75,7 @@ std::optional<Found> stackless(Program& program, const RayFunction& f, const Sea
 
   const Truth found = loop.result(open);
   const Expr a = loop.result(run), b = loop.result(s);
-  return answer(program, f,
+  return answer(f,
                 {.found = found,
                  .a = a,
                  .b = b,

@@ -36,7 +36,7 @@ std::string after(const std::string& text, const std::string& label) {
 }
 
 TEST(TraceGolden, shows_every_step) {
-  const CommandAnswer answer = trace("7,8", {"--epsilon=2^-8"});
+  const CommandAnswer answer = trace("7,8", {"--epsilon=2^-8", "--search=isolate"});
   EXPECT_EQ(answer.exit, 0);
   EXPECT_EQ(answer.err, "");
   test::expect_golden("trace.txt", answer.out);

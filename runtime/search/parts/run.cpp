@@ -1,7 +1,5 @@
 #include "runtime/search/parts/run.h"
 
-#include "runtime/search/parts/refine.h"
-
 namespace imp {
 
 Truth monotone(const RayFunction& f, Expr a, Expr b) {
@@ -9,7 +7,7 @@ Truth monotone(const RayFunction& f, Expr a, Expr b) {
   return !may_be_zero(slope) && slope.continuous;
 }
 
-Found answer(Program& program, const RayFunction& f, const Run& run, Truth miss, Expr steps) {
+Found answer(const RayFunction& f, const Run& run, Truth miss, Expr steps) {
   const Expr a = run.a, b = run.b;
   const Truth changes = run.found && run.before * run.after < 0;
   const Truth hit = changes && (b - a <= certified_length || run.single) && run.smooth;
@@ -17,7 +15,9 @@ Found answer(Program& program, const RayFunction& f, const Run& run, Truth miss,
 
   return {select(hit, constant_like(a, verdict_hit),
                  select(certain_miss, constant_like(a, verdict_miss), constant_like(a, verdict_undecided))),
-          run.found, refine(program, f, a, b, run.before, changes), steps};
+          run.found,
+          {a, b, run.before, changes},
+          steps};
 }
 
 }  // namespace imp

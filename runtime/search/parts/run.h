@@ -16,8 +16,8 @@ struct Run {
 // Whether df/ds is proven to be no 0 on [a, b], so that f has one root there at most.
 Truth monotone(const RayFunction& f, Expr a, Expr b);
 
-// Appends the refinement of the root. A run across which f changes its sign is a certified hit if f is continuous on it
-// and it is short or holds a single root. `miss`: all is excluded.
-Found answer(Program& program, const RayFunction& f, const Run& run, Truth miss, Expr steps);
+// A run across which f changes its sign is a certified hit if f is continuous on it and it is short or holds a
+// single root. `miss`: all is excluded.
+Found answer(const RayFunction& f, const Run& run, Truth miss, Expr steps);
 
 }  // namespace imp

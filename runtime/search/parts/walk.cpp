@@ -116,7 +116,7 @@ Found walk_from(Program& program, const RayFunction& f, std::span<const Interval
   loop.again_while((split || end < 1) && !run_ends);
 
   const Truth found = loop.result(open);
-  return answer(program, f,
+  return answer(f,
                 {.found = found,
                  .a = below(loop.result(run), type),
                  .b = above(loop.result(s), type),
