@@ -43,9 +43,8 @@ void print_examples_table() {
   const auto workers = std::make_shared<Workers>();
   fmt::print(
       "512 x 512, {} threads, by the clock on the wall; frames: the first, which may make a kernel in "
-      "double, and "
-      "the median of {} more\n\n"
-      "| surface | search | operations a pixel | to make, ms | first frame, ms | frame, ms | steps a ray | "
+      "double, and the median of {} more\n\n"
+      "| surface | search | nodes a pixel | to make, ms | first frame, ms | frame, ms | steps a ray | "
       "undecided pixels |\n| --- | --- |{}\n",
       workers->size(), rounds, " ---: | ---: | ---: | ---: | ---: | ---: |");
   for (const std::string& name : example_names()) print_row(name, workers);

@@ -68,11 +68,9 @@ void print_rates_table() {
   const auto workers = std::make_shared<Workers>();
   fmt::print(
       "1024 x 1024, {} threads, medians of {} frames by the clock on the wall; asked for and stretch scaled "
-      "by the "
-      "peaks\n\n"
+      "by the peaks\n\n"
       "| surface | frames a second | peak, GFLOP/s | asked for | of it | of the stretch | undecided pixels | "
-      "steps a "
-      "ray |\n| --- |{}\n",
+      "steps a ray |\n| --- |{}\n",
       workers->size(), rounds, " ---: | ---: | ---: | ---: | ---: | ---: | ---: |");
   for (const Row& row : rows) print_row(row, workers);
 }

@@ -5,7 +5,7 @@
 // over a whole slab (affine forms over two picture axes and the depth: Flórez, Sbert, Sainz and Vehí 2008 cast beams
 // with interval methods), and tell of what class it is for every ray:
 //
-//    excluded, with the sign of f | void: f has no value | monotone: df/ds excludes 0 | unknown
+//    excluded, with the sign of f | empty: f has no value | monotone: df/ds excludes 0 | unknown
 //
 // A last stage reads the classes front to back. A change of sign across monotone slabs is the first hit of every ray
 // that has these slabs in its domain; equal signs are no root, and are left behind.

@@ -25,6 +25,7 @@ struct Sight {
   Expr verdict, steps;
   Truth something;
   Expr t;         // the distance from the origin of the ray, f32
+  Expr begin;     // no root lies before it; infinite where there is none, -infinite where nothing is known
   Vector normal;  // of length 1, f32; along the ray where f has no gradient
 };
 
@@ -135,11 +136,16 @@ class Pixel {
     Vector normal = to(f32, normalized({values[1], values[2], values[3]}));
     const Truth regular = dot(normal, normal) > 0.5;
     for (std::size_t i = 0; i < 3; ++i) normal[i] = select(regular, normal[i], -ray_.direction[i]);
-    return Sight{to(f32, found->verdict), to(f32, found->steps), found->something,
-                 piece.near + to(f32, s) * (piece.far - piece.near), normal};
+    const Expr verdict = to(f32, found->verdict);
+    const auto distance = [&](Expr share) { return piece.near + to(f32, share) * (piece.far - piece.near); };
+    const Expr nowhere = constant_like(verdict, infinity);
+    const Expr begin =
+        select(found->something, distance(found->bracket.a),
+               select(equal(verdict, constant_like(verdict, verdict_miss)), nowhere, -nowhere));
+    return Sight{verdict, to(f32, found->steps), found->something, distance(s), begin, normal};
   }
 
-  // The first of two. A hit is certified if the other surface is certain to lie behind it.
+  // The first of two. A hit is certified if no root of the other surface can lie before it.
   Sight nearer(const Sight& a, const Sight& b) const {
     const auto place = [](const Sight& sight) {
       return select(sight.something, sight.t, constant_like(sight.t, infinity));
@@ -147,14 +153,13 @@ class Pixel {
     const Truth a_first = place(a) <= place(b);
     const auto pick = [&](Expr p, Expr q) { return select(a_first, p, q); };
     const Expr first = pick(a.verdict, b.verdict), other = pick(b.verdict, a.verdict);
-    const Expr gap = abs(place(a) - place(b));
-    const Truth other_seen = select(a_first, b.something, a.something);  // not given up before it
-    const Expr run = 2 * longest_run(epsilon_of(options_.limits, type_)) * (clip_.far - clip_.near);
-    const Truth certain = other >= verdict_miss || (other_seen && gap > run);
+    const Expr off = 2 * certified_length * (clip_.far - clip_.near);  // what a hit's place may be, and more
+    const Truth certain = other >= verdict_miss || pick(b.begin, a.begin) - pick(a.t, b.t) > off;
     Sight result;
     result.verdict = select(certain, first, constant_like(first, verdict_undecided));
     result.something = a.something || b.something;
     result.t = pick(a.t, b.t);
+    result.begin = min(a.begin, b.begin);
     result.steps = a.steps + b.steps;
     for (std::size_t i = 0; i < 3; ++i) result.normal[i] = pick(a.normal[i], b.normal[i]);
     return result;

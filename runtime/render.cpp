@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::uint32_t tile = 64;
 
-// Beams of more operations take longer to compile than they save.
-constexpr std::size_t most_beam_operations = 8000;
+// Beams whose Programs are longer take longer to compile than they save.
+constexpr std::size_t most_beam_nodes = 8000;
 
 // Where an output of the pixel's Program goes.
 struct Destination {
@@ -67,7 +67,7 @@ std::optional<Pipeline> lowered_stages(const Model& model, const RenderOptions& 
   if (!stages) return std::nullopt;
   for (Stage& stage : *stages) {
     stage.program = lowered(std::move(stage.program));
-    if (stage.program.graph.size() > most_beam_operations)
+    if (stage.program.graph.size() > most_beam_nodes)
       return lowered_stages(model, options, false, diagnostics, timings);
   }
   beams = !stages->empty();
@@ -154,12 +154,32 @@ Picture Renderer::frame(const UniformValues& uniforms, std::stop_token stop,
   }
   std::ranges::fill(picture.verdict, static_cast<float>(verdict_undecided));  // until it is known
 
+  const auto pixel = [&](std::size_t k, std::size_t place) -> float& {
+    return (*channels[k].channel)[channels[k].stride * place + channels[k].offset];
+  };
   const PixelSink sink = [&](const PixelRows& pixels) {
     for (std::size_t i = 0; i < pixels.count; ++i) {
       if (pixels.columns[i] >= picture.width || pixels.rows[i] >= picture.height) continue;
       const std::size_t place = pixels.rows[i] * picture.width + pixels.columns[i];
-      for (std::size_t k = 0; k < channels.size(); ++k)
-        (*channels[k].channel)[channels[k].stride * place + channels[k].offset] = pixels.outputs[k][i];
+      for (std::size_t k = 0; k < channels.size(); ++k) pixel(k, place) = pixels.outputs[k][i];
+    }
+  };
+  // What is decided, with the steps of both looks.
+  const PixelSink second_sink = [&](const PixelRows& pixels) {
+    const auto channel_of = [&](const std::vector<float>& data) {
+      const auto found = std::ranges::find(channels, &data, &Destination::channel);
+      return static_cast<std::size_t>(found - channels.begin());
+    };
+    const std::size_t verdict = channel_of(picture.verdict), steps = channel_of(picture.steps);
+    for (std::size_t i = 0; i < pixels.count; ++i) {
+      const std::size_t place = pixels.rows[i] * picture.width + pixels.columns[i];
+      const bool decided = pixels.outputs[verdict][i] != static_cast<float>(verdict_undecided);
+      for (std::size_t k = 0; k < channels.size(); ++k) {
+        if (k == steps)
+          pixel(k, place) += pixels.outputs[k][i];
+        else if (decided)
+          pixel(k, place) = pixels.outputs[k][i];
+      }
     }
   };
   // Where all is excluded.
@@ -174,7 +194,7 @@ Picture Renderer::frame(const UniformValues& uniforms, std::stop_token stop,
   const Undecided open(picture);
   if (open.columns.empty() || stop.stop_requested()) return picture;
   if (in_double())
-    run_pixels({{1, 1, 1}, in_double_->kernel}, open.columns, open.rows, std::cref(inputs), sink,
+    run_pixels({{1, 1, 1}, in_double_->kernel}, open.columns, open.rows, std::cref(inputs), second_sink,
                *options_.workers, stop);
   return picture;
 }

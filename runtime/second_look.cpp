@@ -30,9 +30,16 @@ void look_again(std::vector<Column>& outputs, const Program& program, std::span<
     for (const std::size_t row : open) part.push_back(column[row]);
   }
   const auto found = run_rows(*finer, chosen, open.size());
-  for (std::size_t k = 0; k < outputs.size(); ++k)
-    for (std::size_t i = 0; i < open.size(); ++i)
-      outputs[k][open[i]] = found[k][i] + (k == steps ? outputs[k][open[i]] : 0);
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    const bool decided = found[verdict][i] != verdict_undecided;
+    for (std::size_t k = 0; k < outputs.size(); ++k) {
+      double& output = outputs[k][open[i]];
+      if (k == steps)
+        output += found[k][i];
+      else if (decided)
+        output = found[k][i];
+    }
+  }
 }
 
 }  // namespace imp

@@ -10,7 +10,7 @@
 namespace imp {
 
 // Where `outputs` of `rows` rows (run_rows) have the verdict undecided, the row is run again, and its outputs
-// are those of `kernel`, whose inputs and outputs are the same. The steps of both are added. `kernel` is asked for where there is
+// are those of `kernel`, whose inputs and outputs are the same, if that decides. The steps of both are added. `kernel` is asked for where there is
 // such a row; null: there is none to be had, and nothing changes.
 void look_again(std::vector<Column>& outputs, const Program& program, std::span<const Column> inputs,
                 std::size_t rows, const std::function<const Kernel*()>& kernel);

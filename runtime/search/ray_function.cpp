@@ -114,11 +114,10 @@ struct AlongRay {
     return inline_program(g, inputs).front();
   }
 
-  Expr newton_in_double(Expr s) const {
+  Expr evaluate_in_double(const Program& g, Expr s) const {
     std::vector<Expr> inputs{to(f64, s)};
     for (const Interval& each : wide_bounds) inputs.push_back(0.5 * (each.hi - each.nlo));
-    return narrow(inline_program(f_in_double, inputs).front() /
-                  inline_program(slope_in_double, inputs).front());
+    return inline_program(g, inputs).front();
   }
 };
 
@@ -175,7 +174,8 @@ std::optional<RayFunction> ray_function(const Program& f, const Segment& segment
       .bound_at = [ray](Expr s) { return ray->enclose_at(s); },
       .value = [ray](Expr s) { return ray->evaluate(ray->f_rounded, s); },
       .slope = [ray](Expr s) { return ray->evaluate(ray->slope_rounded, s); },
-      .newton_in_double = [ray](Expr s) { return ray->newton_in_double(s); },
+      .value_in_double = [ray](Expr s) { return ray->evaluate_in_double(ray->f_in_double, s); },
+      .slope_in_double = [ray](Expr s) { return ray->evaluate_in_double(ray->slope_in_double, s); },
       .like = like,
       .exists = segment.exists,
       .degree = [ray](Diagnostics& d) { return ray->degree(d); },

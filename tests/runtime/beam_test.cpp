@@ -34,7 +34,7 @@ TEST(Beams, show_the_picture_of_the_rays) {
   }
 }
 
-// Where a cell of 16 x 16 pixels is small beside the surface, most rays have nothing left to search.
+// Where a cell of 8 x 8 pixels is small beside the surface, most rays have nothing left to search.
 TEST(Beams, take_steps_off_rays) {
   const auto mean_steps = [](bool tiles) {
     RenderOptions options = test::sized(256, 256);

@@ -5,10 +5,10 @@
 
 namespace imp {
 
-// Appends a phase that runs Newton's method inside the bracket, and bisects where a Newton step leaves the bracket or
-// does not halve the last step (stiff f, such as x^500). In floats that only leads to the neighbourhood of the root,
-// and steps with f in double follow: near a tangent the rounding of f moves a root by more than that of s. Answers the
-// middle of a bracket without a change of sign.
+// Appends phases that run Newton's method inside the bracket, and bisect where a step leaves it or does not halve the
+// last one (stiff f, such as x^500). In floats a second phase follows with f in double, until the signs of f there say
+// that the root is within certified_length: near a tangent the rounding of f moves a root by more than that of s.
+// Answers the middle of a bracket without a change of sign.
 Expr refine(Program& program, const RayFunction& f, const Bracket& bracket);
 
 }  // namespace imp

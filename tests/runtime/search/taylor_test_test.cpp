@@ -26,7 +26,8 @@ class Tested {
                         .bound_at = {},
                         .value = [=](Expr s) { return square(s - p) - c + k * square(square(s - p)); },
                         .slope = [=](Expr s) { return 2.0 * (s - p) + 4.0 * k * (s - p) * square(s - p); },
-                        .newton_in_double = {},
+                        .value_in_double = {},
+                        .slope_in_double = {},
                         .like = a,
                         .exists = a < b};
     output(program, "maybe", taylor_test(f, a, b));
