@@ -6,6 +6,7 @@
 #include "ir/verify.h"
 #include "passes/differentiate.h"
 #include "tests/support/chebyshev.h"
+#include "tests/support/cost.h"
 #include "tests/support/evaluate.h"
 #include "tests/support/make.h"
 #include "tests/support/random.h"
@@ -23,13 +24,6 @@ Program of(unsigned n, unsigned k, Type type = f64) {
   Program p{.name = "f"};
   output(p, "f", node(input(p, "x", type), n, k));
   return p;
-}
-
-int count(const Program& p, Op op) {
-  int n = 0;
-  const Program live = compact(p);
-  for (std::uint32_t i = 0; i < live.graph.size(); ++i) n += live.graph[Id{i}].op == op;
-  return n;
 }
 
 TEST(Chebyshev, keeps_bits) {

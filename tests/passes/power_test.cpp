@@ -4,11 +4,13 @@
 #include <gtest/gtest.h>
 
 #include "ir/verify.h"
+#include "tests/support/cost.h"
 #include "tests/support/evaluate.h"
 
 namespace imp {
 namespace {
 
+using test::count;
 using test::evaluate;
 using test::same_bits;
 using test::upward;
@@ -18,13 +20,6 @@ Program power_of(double n) {
   const Expr x{&p.graph, add_input(p, "x", f64, Rate::ray)};
   p.outputs = {{"f", make(Op::powi, x, constant_like(x, n)).id}};
   return p;
-}
-
-int count(const Program& p, Op op) {
-  int n = 0;
-  const Program live = compact(p);
-  for (std::uint32_t i = 0; i < live.graph.size(); ++i) n += live.graph[Id{i}].op == op;
-  return n;
 }
 
 TEST(Power, keeps_bits) {

@@ -8,16 +8,16 @@ namespace {
 // One step of Newton's method with bisection, from s in [lo, hi].
 struct Step {
   Expr lo, hi;      // the bracket without what lies on the wrong side of s
-  Truth right;      // the root lies right of s
   Expr next;        // where to go
   Truth by_newton;  // and how
 };
 
-// `last` is the length of the step before: a step of Newton's method that is not half as long does not converge.
+// `right`: the root lies right of s. `last` is the length of the step before: a step of Newton's method that is not
+// half as long does not converge.
 Step step_from(Expr s, Expr lo, Expr hi, Expr last, Truth right, Expr newton) {
   const Expr next_lo = select(right, s, lo), next_hi = select(right, hi, s);
   const Truth good = next_lo < newton && newton < next_hi && 2.0 * abs(newton - s) < last;
-  return {next_lo, next_hi, right, select(good, newton, 0.5 * (next_lo + next_hi)), good};
+  return {next_lo, next_hi, select(good, newton, 0.5 * (next_lo + next_hi)), good};
 }
 
 // In the arithmetic of the kernel. In floats it is left where Newton's method seems to converge: what is wrong
