@@ -203,13 +203,14 @@ void print_evaluations_table() {
   Rays some;
   for (const CpuTarget& target : cpu_targets()) {
     if (!target.runs_here || target.name == "host") continue;
-    if (!only_target.empty() && target.name != only_target) continue;
+    if (!only.target.empty() && target.name != only.target) continue;
     fmt::print("\n{}\n\n| surface |", target.name);
     for (const Column& column : columns) fmt::print(" {} |", column.name);
     fmt::print("\n| --- |");
     for ([[maybe_unused]] const Column& column : columns) fmt::print(" ---: |");
     fmt::print("\n");
     for (const std::string& name : example_names()) {
+      if (only.skips(name)) continue;
       const Program f = simplified(example(name).surfaces[0].f);
       if (f.inputs.size() != 3) continue;
       fmt::print("| {} |", name);

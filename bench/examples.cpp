@@ -26,7 +26,7 @@ void print_row(const std::string& name, const std::shared_ptr<Workers>& workers)
   std::vector<double> milliseconds;
   for (int round = 0; round < rounds; ++round) {
     const WallClock clock;
-    picture = drawn.renderer->frame(drawn.uniforms);
+    picture = drawn.renderer->frame(drawn.uniforms, {}, {}, std::move(picture));
     milliseconds.push_back(clock.milliseconds());
   }
   const double steps = std::accumulate(picture.steps.begin(), picture.steps.end(), 0.0);
@@ -47,7 +47,8 @@ void print_examples_table() {
       "| surface | search | nodes a pixel | to make, ms | first frame, ms | frame, ms | steps a ray | "
       "undecided pixels |\n| --- | --- |{}\n",
       workers->size(), rounds, " ---: | ---: | ---: | ---: | ---: | ---: |");
-  for (const std::string& name : example_names()) print_row(name, workers);
+  for (const std::string& name : example_names())
+    if (!only.skips(name)) print_row(name, workers);
 }
 
 }  // namespace imp::bench

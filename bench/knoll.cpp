@@ -82,6 +82,7 @@ void print_knoll_table() {
       "hand | undecided % | fps, {} threads | fps, paper |\n| --- |{}\n",
       all->size(), std::string(" ---: |").append(" ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |"));
   for (const Row& row : rows) {
+    if (only.skips(row.surface)) continue;
     const Scene nearest = prepared(row.surface, one, false), outward = prepared(row.surface, one, true);
     const Scene together = prepared(row.surface, all, true);
     Measured plain, sound, fast;

@@ -1,38 +1,41 @@
-// imp_bench: tables by name (--table NAME [--target NAME]), and else the benchmarks, as Google Benchmark runs them.
+// imp_bench: tables by name (--table NAME [--only SURFACES] [--target NAME]), and else the benchmarks, as Google
+// Benchmark runs them.
 #include <benchmark/benchmark.h>
-#include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
+#include <map>
 #include <string_view>
 
 #include "bench/tables.h"
 
 namespace {
 
-struct Table {
-  std::string_view name;
-  void (*print)();
-};
+using imp::bench::only;
 
-constexpr Table tables[] = {
-    {"knoll", imp::bench::print_knoll_table},           {"rates", imp::bench::print_rates_table},
-    {"examples", imp::bench::print_examples_table},     {"first-pixel", imp::bench::print_first_pixel_table},
-    {"elementary", imp::bench::print_elementary_table}, {"evaluations", imp::bench::print_evaluations_table},
-};
-
-int print_table(std::string_view name) {
-  for (const Table& table : tables)
-    if (table.name == name) return table.print(), 0;
-  fmt::print(stderr, "no table '{}'; there are:", name);
-  for (const Table& table : tables) fmt::print(stderr, " {}", table.name);
-  fmt::print(stderr, "\n");
-  return 2;
+int print_table(int argc, char** argv) {
+  const std::map<std::string, void (*)()> tables = {
+      {"knoll", imp::bench::print_knoll_table},
+      {"rates", imp::bench::print_rates_table},
+      {"examples", imp::bench::print_examples_table},
+      {"first-pixel", imp::bench::print_first_pixel_table},
+      {"elementary", imp::bench::print_elementary_table},
+      {"evaluations", imp::bench::print_evaluations_table},
+      {"strategies", imp::bench::print_strategies_table},
+  };
+  CLI::App app("figures that mean something side by side");
+  std::string name;
+  app.add_option("--table", name, "which")->required()->check(CLI::IsMember(tables));
+  app.add_option("--only", only.surfaces, "rows of these surfaces")->delimiter(',');
+  app.add_option("--target", only.target, "of the table `evaluations` this target");
+  CLI11_PARSE(app, argc, argv);
+  tables.at(name)();
+  return 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc == 5 && argv[3] == std::string_view("--target")) imp::bench::only_target = argv[4], argc = 3;
-  if (argc == 3 && argv[1] == std::string_view("--table")) return print_table(argv[2]);
+  if (argc > 1 && argv[1] == std::string_view("--table")) return print_table(argc, argv);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   benchmark::RunSpecifiedBenchmarks();

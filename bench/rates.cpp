@@ -51,7 +51,7 @@ void print_row(const Row& row, const std::shared_ptr<Workers>& workers) {
   for (int round = 0; round < rounds; ++round) {
     peaks.push_back(peak_of(workers->size()));
     const WallClock clock;
-    picture = drawn.renderer->frame(drawn.uniforms);
+    picture = drawn.renderer->frame(drawn.uniforms, {}, {}, std::move(picture));
     milliseconds.push_back(clock.milliseconds());
   }
   const double fps = 1000 / median(milliseconds), speed = median(peaks) / by_hand_gflops;
@@ -72,7 +72,8 @@ void print_rates_table() {
       "| surface | frames a second | peak, GFLOP/s | asked for | of it | of the stretch | undecided pixels | "
       "steps a ray |\n| --- |{}\n",
       workers->size(), rounds, " ---: | ---: | ---: | ---: | ---: | ---: | ---: |");
-  for (const Row& row : rows) print_row(row, workers);
+  for (const Row& row : rows)
+    if (!only.skips(row.surface)) print_row(row, workers);
 }
 
 }  // namespace imp::bench

@@ -1,16 +1,27 @@
 // Tables: figures that only mean something side by side, measured in turns within one run. In Markdown,
-// on standard output:  tools/dev bench --table NAME [--target NAME]
+// on standard output:  tools/dev bench --table NAME [--only SURFACES] [--target NAME]
 #pragma once
 
 #include <algorithm>
+#include <string>
 #include <string_view>
 #include <vector>
 
 namespace imp::bench {
 
-inline std::string_view only_target;  // of --target; empty: every one that the table has and that runs here
+// What is asked for, where it is not all of a table.
+struct Only {
+  std::vector<std::string> surfaces;
+  std::string target;
+
+  bool skips(std::string_view surface) const {
+    return !surfaces.empty() && std::ranges::find(surfaces, surface) == surfaces.end();
+  }
+};
+inline Only only;
 
 void print_knoll_table();        // frames of Knoll et al. 2009, Table 1
+void print_strategies_table();   // every strategy beside kernels written by hand
 void print_rates_table();        // frames a second as the command draws them
 void print_examples_table();     // what every example takes, and what is left undecided
 void print_first_pixel_table();  // from the start of the process to the first pixel

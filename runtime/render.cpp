@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <atomic>
 #include <expected>
-#include <limits>
-#include <map>
 
 #include "passes/surface_passes.h"
 #include "runtime/beam.h"
+#include "runtime/canvas.h"
 #include "runtime/pixel.h"
 #include "runtime/stages.h"
 #include "runtime/view.h"
@@ -19,42 +18,6 @@ constexpr std::uint32_t tile = 64;
 
 // Beams whose Programs are longer take longer to compile than they save.
 constexpr std::size_t most_beam_nodes = 8000;
-
-// Where an output of the pixel's Program goes.
-struct Destination {
-  std::vector<float>* channel;
-  std::size_t stride, offset;
-  float background;  // where nothing is
-};
-
-std::map<std::string, Destination> targets(Picture& picture) {
-  constexpr float nowhere = std::numeric_limits<float>::infinity();
-  const auto color = [&](std::size_t i) {
-    return Destination{&picture.color, 3, i, static_cast<float>(background[i])};
-  };
-  return {{"red", color(0)},
-          {"green", color(1)},
-          {"blue", color(2)},
-          {"verdict", {&picture.verdict, 1, 0, static_cast<float>(verdict_miss)}},
-          {"depth", {&picture.depth, 1, 0, nowhere}},
-          {"normal.x", {&picture.normal, 3, 0, 0}},
-          {"normal.y", {&picture.normal, 3, 1, 0}},
-          {"normal.z", {&picture.normal, 3, 2, 0}},
-          {"steps", {&picture.steps, 1, 0, 0}}};
-}
-
-// The pixels of which nothing is certified.
-struct Undecided {
-  std::vector<std::uint32_t> columns, rows;
-
-  explicit Undecided(const Picture& picture) {
-    for (std::size_t i = 0; i < picture.verdict.size(); ++i)
-      if (picture.verdict[i] == static_cast<float>(verdict_undecided)) {
-        columns.push_back(static_cast<std::uint32_t>(i % picture.width));
-        rows.push_back(static_cast<std::uint32_t>(i / picture.width));
-      }
-  }
-};
 
 // The stages as a backend gets them.
 std::optional<Pipeline> lowered_stages(const Model& model, const RenderOptions& options, bool beams,
@@ -144,58 +107,27 @@ std::optional<Renderer> Renderer::make(const Model& model, const RenderOptions& 
 }
 
 Picture Renderer::frame(const UniformValues& uniforms, std::stop_token stop,
-                        const std::function<void(double)>& progress) const {
+                        const std::function<void(double)>& progress, Picture used) const {
   const FrameInputs inputs(*model_, uniforms, options_.width, options_.height);
-  Picture picture{options_.width, options_.height, {}, {}, {}, {}, {}};
-  std::vector<Destination> channels;
-  for (const Output& output : program().outputs) {
-    channels.push_back(targets(picture).at(output.name));
-    channels.back().channel->resize(channels.back().stride * picture.width * picture.height);
-  }
-  std::ranges::fill(picture.verdict, static_cast<float>(verdict_undecided));  // until it is known
+  Picture picture = std::move(used);
+  picture.width = options_.width, picture.height = options_.height;
+  Canvas canvas(picture, program().outputs);
+  if (stop.stop_possible())  // then some may stay as they are
+    std::ranges::fill(picture.verdict, static_cast<float>(verdict_undecided));
 
-  const auto pixel = [&](std::size_t k, std::size_t place) -> float& {
-    return (*channels[k].channel)[channels[k].stride * place + channels[k].offset];
-  };
-  const PixelSink sink = [&](const PixelRows& pixels) {
-    for (std::size_t i = 0; i < pixels.count; ++i) {
-      if (pixels.columns[i] >= picture.width || pixels.rows[i] >= picture.height) continue;
-      const std::size_t place = pixels.rows[i] * picture.width + pixels.columns[i];
-      for (std::size_t k = 0; k < channels.size(); ++k) pixel(k, place) = pixels.outputs[k][i];
-    }
-  };
-  // What is decided, with the steps of both looks.
-  const PixelSink second_sink = [&](const PixelRows& pixels) {
-    const auto channel_of = [&](const std::vector<float>& data) {
-      const auto found = std::ranges::find(channels, &data, &Destination::channel);
-      return static_cast<std::size_t>(found - channels.begin());
-    };
-    const std::size_t verdict = channel_of(picture.verdict), steps = channel_of(picture.steps);
-    for (std::size_t i = 0; i < pixels.count; ++i) {
-      const std::size_t place = pixels.rows[i] * picture.width + pixels.columns[i];
-      const bool decided = pixels.outputs[verdict][i] != static_cast<float>(verdict_undecided);
-      for (std::size_t k = 0; k < channels.size(); ++k) {
-        if (k == steps)
-          pixel(k, place) += pixels.outputs[k][i];
-        else if (decided)
-          pixel(k, place) = pixels.outputs[k][i];
-      }
-    }
-  };
-  // Where all is excluded.
-  const NotNeededSink not_needed = [&](std::size_t x, std::size_t y, std::size_t width, std::size_t height) {
-    for (const Destination& target : channels)
-      for (std::size_t row = y; row < y + height; ++row)
-        for (std::size_t place = row * picture.width + x; place < row * picture.width + x + width; ++place)
-          (*target.channel)[target.stride * place + target.offset] = target.background;
-  };
-  run_stages(stages_, {picture.width, picture.height}, std::cref(inputs), sink, not_needed, *options_.workers,
-             stop, progress);
-  const Undecided open(picture);
+  run_stages(
+      stages_, {picture.width, picture.height}, std::cref(inputs),
+      [&](const PixelRows& pixels) { canvas.draw(pixels); },
+      [&](std::size_t x, std::size_t y, std::size_t width, std::size_t height) {
+        canvas.clear(x, y, width, height);
+      },
+      *options_.workers, stop, progress);
+  const Undecided open = canvas.undecided();
   if (open.columns.empty() || stop.stop_requested()) return picture;
   if (in_double())
-    run_pixels({{1, 1, 1}, in_double_->kernel}, open.columns, open.rows, std::cref(inputs), second_sink,
-               *options_.workers, stop);
+    run_pixels(
+        {{1, 1, 1}, in_double_->kernel}, open.columns, open.rows, std::cref(inputs),
+        [&](const PixelRows& pixels) { canvas.draw_decided(pixels); }, *options_.workers, stop);
   return picture;
 }
 

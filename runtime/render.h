@@ -55,9 +55,9 @@ class Renderer {
                                       Diagnostics& diagnostics, Timings* timings = nullptr);
 
   // Renders a frame; stops early, with what is done, when asked. `progress` hears, from any thread,
-  // what share of the tiles is done.
+  // what share of the tiles is done. The memory of a picture that is no longer needed is taken again.
   Picture frame(const UniformValues& uniforms, std::stop_token stop = {},
-                const std::function<void(double)>& progress = {}) const;
+                const std::function<void(double)>& progress = {}, Picture used = {}) const;
 
   // How each surface that is drawn is searched.
   std::vector<Method> methods() const;

@@ -136,11 +136,11 @@ class Worker {
   }
 
   void deliver(const Level& level, std::uint32_t x, std::uint32_t y) {
-    columns_.clear();
-    rows_.clear();
+    columns_.resize(level.lanes.size());
+    rows_.resize(level.lanes.size());
     for (std::size_t lane = 0; lane < level.lanes.size(); ++lane) {
-      columns_.push_back(x + static_cast<std::uint32_t>(level.lanes.column[lane]));
-      rows_.push_back(y + static_cast<std::uint32_t>(level.lanes.row[lane]));
+      columns_[lane] = x + static_cast<std::uint32_t>(level.lanes.column[lane]);
+      rows_[lane] = y + static_cast<std::uint32_t>(level.lanes.row[lane]);
     }
     sink_({level.lanes.size(), columns_, rows_, level.rows});
   }

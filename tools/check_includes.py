@@ -23,7 +23,7 @@ FOREIGN = {  # headers that stay in one place
     "llvm": ["backends/llvm"],
     "llvm-c": ["backends/llvm"],
     "OpenImageIO": ["runtime/image"],
-    "CLI": ["tools", "tests/prove"],
+    "CLI": ["tools", "tests/prove", "bench"],
     "nlohmann": ["tools", "tests"],
 }
 

@@ -39,39 +39,41 @@ class Host {
   llvm::StringMap<bool, llvm::MallocAllocator> features_;
 };
 
-unsigned bits(Type type) { return type.scalar == Scalar::f64 ? 64 : 32; }
-
-// The widest number computed with, in phases and at all.
+// The widths of the numbers computed with.
 struct Widths {
-  unsigned in_phases = 0, at_all = 32;
+  bool floats = false, doubles = false;
+
+  void see(Type type) {
+    floats = floats || type.scalar == Scalar::f32;
+    doubles = doubles || type.scalar == Scalar::f64;
+  }
 };
 
-Widths widths(const Program& program, bool called_in_a_phase) {
-  Widths widest;
+// Of what is computed for each ray.
+void see_widths(const Program& program, bool called_in_a_phase, Widths& in_phases, Widths& at_all) {
   const auto region = regions(program);
-  const auto see = [&](Type type, bool inside) {
-    widest.at_all = std::max(widest.at_all, bits(type));
-    if (inside) widest.in_phases = std::max(widest.in_phases, bits(type));
-  };
   for (const auto& nodes : schedule(program))
     for (const Id id : nodes) {
       const Node node = program.graph[id];
+      if (region[id.index] < Region::of(Rate::ray)) continue;
       const bool inside = called_in_a_phase || region[id.index].inside_a_phase();
-      see(node.type, inside);
-      for (const Id arg : node.args) see(program.graph[arg].type, inside);
-      if (node.op != Op::call) continue;
-      const Widths callee = widths(*program.callees[node.high()], inside);
-      widest.in_phases = std::max(widest.in_phases, callee.in_phases);
-      widest.at_all = std::max(widest.at_all, callee.at_all);
+      const auto see = [&](Type type) {
+        at_all.see(type);
+        if (inside) in_phases.see(type);
+      };
+      see(node.type);
+      for (const Id arg : node.args) see(program.graph[arg].type);
+      if (node.op == Op::call) see_widths(*program.callees[node.high()], inside, in_phases, at_all);
     }
-  return widest;
 }
 
 }  // namespace
 
 unsigned CpuTarget::lanes(const Program& program) const {
-  const Widths widest = widths(program, false);
-  return packet_registers * register_bits / (widest.in_phases != 0 ? widest.in_phases : widest.at_all);
+  Widths in_phases, at_all;
+  see_widths(program, false, in_phases, at_all);
+  const bool by_floats = in_phases.floats || (!in_phases.doubles && !at_all.doubles);
+  return packet_registers * register_bits / (by_floats ? 32 : 64);
 }
 
 std::vector<CpuTarget> cpu_targets() {

@@ -18,8 +18,9 @@ struct CpuTarget {
   bool runs_here = false;
   unsigned packet_registers = 1;  // that a number of a packet fills (docs/decisions/packets.md)
 
-  // Rays a packet holds: that many registers of the Program's widest type that it computes with in
-  // a phase (or at all, where it has no phase).
+  // Rays a packet holds: that many registers of floats if the Program computes with floats in a phase (doubles
+  // beside them take twice as many), else of the widest numbers
+  // it computes with for each ray.
   unsigned lanes(const Program& program) const;
 };
 

@@ -39,7 +39,7 @@ struct AlongRay {
   Program f, slope;                  // without poles, f64, exact constants: to be enclosed
   std::optional<Program> poles;      // 0 where they are
   Program f_rounded, slope_rounded;  // in the kernel's type: to be evaluated
-  Program f_in_double, slope_in_double;
+  Program f_in_double;
   std::vector<Range> domain;
   std::vector<Interval> bounds, wide_bounds;  // of o, d and the uniforms
   std::vector<Expr> values;
@@ -147,7 +147,6 @@ std::optional<RayFunction> ray_function(const Program& f, const Segment& segment
   ray->f_rounded = in_precision(ray->f, like.type());
   ray->slope_rounded = in_precision(ray->slope, like.type());
   ray->f_in_double = in_precision(ray->f, f64);
-  ray->slope_in_double = in_precision(ray->slope, f64);
   if (space) ray->domain = ranges_along_ray(*space, uniforms.size());
 
   for (const auto* bounds : {&segment.origin_bounds, &segment.direction_bounds})
@@ -175,7 +174,6 @@ std::optional<RayFunction> ray_function(const Program& f, const Segment& segment
       .value = [ray](Expr s) { return ray->evaluate(ray->f_rounded, s); },
       .slope = [ray](Expr s) { return ray->evaluate(ray->slope_rounded, s); },
       .value_in_double = [ray](Expr s) { return ray->evaluate_in_double(ray->f_in_double, s); },
-      .slope_in_double = [ray](Expr s) { return ray->evaluate_in_double(ray->slope_in_double, s); },
       .like = like,
       .exists = segment.exists,
       .degree = [ray](Diagnostics& d) { return ray->degree(d); },

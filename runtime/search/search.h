@@ -38,8 +38,8 @@ struct RayFunction {
   std::function<Interval(Expr s)> bound_at;                // encloses f at one place: as tight, for less
   std::function<Expr(Expr s)> value;                       // f, rounded
   std::function<Expr(Expr s)> slope;                       // df/ds, rounded
-  std::function<Expr(Expr s)> value_in_double, slope_in_double;  // the same in f64
-  Expr like;                                                     // any number of the kernel's type
+  std::function<Expr(Expr s)> value_in_double;             // f in f64, whatever the type of s
+  Expr like;                                               // any number of the kernel's type
   Truth exists;
 
   // Where f is a polynomial in x, y, z: its degree in s at most, and enclosures of its coefficients in Bernstein

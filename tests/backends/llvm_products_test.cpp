@@ -139,7 +139,7 @@ TEST(LlvmProducts, an_object_needs_nothing_and_gives_the_kernel) {
 TEST(LlvmProducts, text_keeps_the_names_of_the_author) {
   const std::string text = *emit(everything(true), *cpu_target("avx2"), CodeForm::llvm_ir);
   for (const char* name : {"%narrowed", "%xf", "phasef:", "@inner("}) EXPECT_TRUE(has(text, name)) << name;
-  EXPECT_TRUE(has(text, "constrained.fmul.v4f32"));
+  EXPECT_TRUE(has(text, "constrained.fmul.v8f32"));
   EXPECT_FALSE(has(text, "fmul <"));
   const std::string nearest = *emit(everything(false), *cpu_target("avx2"), CodeForm::llvm_ir);
   EXPECT_FALSE(has(nearest, "constrained"));
@@ -169,6 +169,30 @@ program outside
 end)");
   EXPECT_EQ(cpu_target("avx2")->lanes(outside), 8u) << "f64 is not computed with in a phase";
   expect_agreement(outside, {ramp(-3, 0.7)});
+  const Program mixed = parsed(R"(
+program mixed
+  input ray x: f32
+  phase p 3
+    state t: f32 = %x
+    %w = widen %t
+    %u = add %w 1
+    %n = narrow %u
+    next t = %n
+    again true
+  end
+  output t = %p.t
+end)");
+  EXPECT_EQ(cpu_target("avx2")->lanes(mixed), 8u) << "a double takes two registers";
+  expect_agreement(mixed, {ramp(-3, 0.7)});
+  const Program uniform = parsed(R"(
+program uniform
+  input frame a: f64
+  input ray x: f32
+  %n = narrow %a
+  %y = add %x %n
+  output y = %y
+end)");
+  EXPECT_EQ(cpu_target("avx2")->lanes(uniform), 8u) << "a frame's numbers fill no registers";
 }
 
 TEST(LlvmProducts, what_would_take_minutes_is_refused) {

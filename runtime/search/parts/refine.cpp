@@ -5,6 +5,8 @@
 namespace imp {
 namespace {
 
+constexpr double near = 0.5 * certified_length;  // the root is to be enclosed in a piece as short
+
 // One step of Newton's method with bisection, from s in [lo, hi].
 struct Step {
   Expr lo, hi;      // the bracket without what lies on the wrong side of s
@@ -20,9 +22,13 @@ Step step_from(Expr s, Expr lo, Expr hi, Expr last, Truth right, Expr newton) {
   return {next_lo, next_hi, select(good, newton, 0.5 * (next_lo + next_hi)), good};
 }
 
+struct Approach {
+  Expr s, slope;  // df/ds about there
+};
+
 // In the arithmetic of the kernel. In floats it is left where Newton's method seems to converge: what is wrong
-// about that the polish finds out.
-Expr approach(Program& program, const RayFunction& f, const Bracket& bracket) {
+// about that the probe finds out.
+Approach approach(Program& program, const RayFunction& f, const Bracket& bracket) {
   const bool in_float = f.like.type() == f32;
   const auto& [a, b, sign_a, changes] = bracket;
 
@@ -31,52 +37,70 @@ Expr approach(Program& program, const RayFunction& f, const Bracket& bracket) {
   const Expr hi = loop.state("hi", b);
   const Expr s = loop.state("s", 0.5 * (a + b));
   const Expr last = loop.state("last", b - a);
-  const Truth newton_before = loop.state("newton", truth_of(program.graph, false));
+  const Expr slope = loop.state("slope", zero(a));
 
-  const Expr value = f.value(s);
-  const Step step = step_from(s, lo, hi, last, value * sign_a > 0, s - value / f.slope(s));
+  const Expr value = f.value(s), slope_here = f.slope(s);
+  const Step step = step_from(s, lo, hi, last, value * sign_a > 0, s - value / slope_here);
   const Expr length = abs(step.next - s);
   loop.next(lo, step.lo);
   loop.next(hi, step.hi);
   loop.next(s, step.next);
   loop.next(last, length);
-  loop.next(newton_before, step.by_newton);
+  loop.next(slope, slope_here);
   loop.enter_if(changes);
   const double resolution = in_float ? 0x1p-25 : 0x1p-54;
   const Truth unfinished = length > resolution * abs(s) && step.hi - step.lo > resolution;
-  const Truth converges = step.by_newton && newton_before && length < 0x1p-4 * last && length < 0x1p-12;
+  const Truth converges = step.by_newton && length < 0x1p-10;
   loop.again_while(in_float ? unfinished && !converges : unfinished);
-  return loop.result(s);
+  return {loop.result(s), loop.result(slope)};
 }
 
-// With f in double, from the same bracket, until signs prove to double's satisfaction that the root is as near as is
-// promised: a step that seems to arrive is followed by a look at the other side of the root.
-Expr polish(Program& program, const RayFunction& f, const Bracket& bracket, Expr start) {
-  constexpr double near = 0.5 * certified_length;
+// A root as near as is promised, if signs of f in double prove that to double's satisfaction.
+struct Probe {
+  Expr root;  // by the chord
+  Truth enclosed;
+};
+
+// Looks at both sides of s.
+Probe probe(const RayFunction& f, const Bracket& bracket, Expr s) {
+  const Expr lo = max(s - 0.5 * near, bracket.a), hi = min(s + 0.5 * near, bracket.b);
+  const Expr at_lo = f.value_in_double(lo), at_hi = f.value_in_double(hi);
+  const Expr sign_a = to(f64, bracket.sign_a);
+  const Expr share = to(f32, at_lo / (at_lo - at_hi));
+  return {lo + share * (hi - lo), bracket.changes && at_lo * sign_a > 0 && at_hi * sign_a < 0};
+}
+
+// Where the probe fails, the same bracket again with f in double. A step that seems to arrive is followed by a look at
+// the other side of the root, and from there further and further. The slope stays as it is: near the root it is as good
+// as another one, and half of what a step would take.
+Expr polish(Program& program, const RayFunction& f, const Bracket& bracket, const Approach& start,
+            Truth wanted) {
   const auto& [a, b, sign_a, changes] = bracket;
 
   Loop loop(program, "polish", 64);
   const Expr lo = loop.state("lo", a);
   const Expr hi = loop.state("hi", b);
-  const Expr s = loop.state("s", start);
+  const Expr s = loop.state("s", start.s);
   const Expr last = loop.state("last", b - a);
-  const Expr best = loop.state("best", start);
+  const Expr reach = loop.state("reach", constant_like(a, 0.5 * near));
+  const Expr best = loop.state("best", start.s);
 
   const Expr value = f.value_in_double(s);
   const Truth right = value * to(f64, sign_a) > 0;
-  const Expr newton = to(f32, to(f64, s) - value / f.slope_in_double(s));
+  const Expr newton = to(f32, to(f64, s) - value / to(f64, start.slope));
   const Step step = step_from(s, lo, hi, last, right, newton);
   const Expr length = abs(step.next - s);
   const Truth enclosed = step.hi - step.lo <= near;
   const Truth arrives = step.by_newton && length < 0.25 * near && !enclosed;
-  const Expr other_side =
-      step.next + select(right, constant_like(s, 0.5 * near), constant_like(s, -0.5 * near));
+  const Expr other_side = step.next + select(right, reach, -reach);
+  const Truth inside = step.lo < other_side && other_side < step.hi;
   loop.next(lo, step.lo);
   loop.next(hi, step.hi);
-  loop.next(s, select(arrives, min(max(other_side, step.lo), step.hi), step.next));
+  loop.next(s, select(arrives, select(inside, other_side, 0.5 * (step.lo + step.hi)), step.next));
   loop.next(last, select(arrives, step.hi - step.lo, length));
+  loop.next(reach, select(arrives, 8.0 * reach, reach));
   loop.next(best, step.next);
-  loop.enter_if(changes);
+  loop.enter_if(wanted);
   loop.again_while(equal(value, value) && !enclosed);
   return loop.result(best);
 }
@@ -84,8 +108,11 @@ Expr polish(Program& program, const RayFunction& f, const Bracket& bracket, Expr
 }  // namespace
 
 Expr refine(Program& program, const RayFunction& f, const Bracket& bracket) {
-  const Expr s = approach(program, f, bracket);
-  return f.like.type() == f32 ? polish(program, f, bracket, s) : s;
+  const Approach found = approach(program, f, bracket);
+  if (f.like.type() == f64) return found.s;
+  const Probe seen = probe(f, bracket, found.s);
+  const Expr polished = polish(program, f, bracket, found, bracket.changes && !seen.enclosed);
+  return select(seen.enclosed, seen.root, polished);
 }
 
 }  // namespace imp

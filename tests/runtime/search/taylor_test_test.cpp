@@ -27,7 +27,6 @@ class Tested {
                         .value = [=](Expr s) { return square(s - p) - c + k * square(square(s - p)); },
                         .slope = [=](Expr s) { return 2.0 * (s - p) + 4.0 * k * (s - p) * square(s - p); },
                         .value_in_double = {},
-                        .slope_in_double = {},
                         .like = a,
                         .exists = a < b};
     output(program, "maybe", taylor_test(f, a, b));

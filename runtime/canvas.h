@@ -1,0 +1,47 @@
+// A picture while it is drawn: which output of a pixel's Program goes where.
+#pragma once
+
+#include <atomic>
+#include <string>
+#include <vector>
+
+#include "ir/program.h"
+#include "runtime/stages.h"
+
+namespace imp {
+
+struct Picture;
+
+// Pixels of which nothing is certified.
+struct Undecided {
+  std::vector<std::uint32_t> columns, rows;
+};
+
+// Draws into a Picture with channels for these outputs, each pixel once at first. From many threads.
+class Canvas {
+ public:
+  Canvas(Picture& picture, const std::vector<Output>& outputs);
+
+  void draw(const PixelRows& pixels);
+  void clear(std::size_t x, std::size_t y, std::size_t width, std::size_t height);  // to the background
+
+  // The pixels drawn with an undecided verdict.
+  Undecided undecided() const;
+
+  // Over what is there, where the new verdict is not undecided; but the steps are added.
+  void draw_decided(const PixelRows& pixels);
+
+ private:
+  struct Channel {
+    float* data;
+    std::size_t stride;  // between pixels
+    float background;    // where nothing is
+  };
+
+  const Picture& picture_;
+  std::vector<Channel> channels_;  // an output each
+  std::size_t verdict_, steps_;    // the places of these two; past the end where there is none
+  std::atomic<bool> any_undecided_ = false;
+};
+
+}  // namespace imp
