@@ -1,10 +1,12 @@
 #include "runtime/beam.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "ir/loop.h"
 #include "passes/differentiate.h"
+#include "passes/extend/forms.h"
 #include "passes/inline.h"
 #include "passes/surface_passes.h"
 #include "runtime/pixel.h"
@@ -19,7 +21,7 @@ constexpr std::uint32_t slabs = 16;
 constexpr std::uint32_t cell_sides[] = {64, 16, beam_cell};  // of the cells of each stage, in pixels
 constexpr double longest_direction = 16;  // that is expected; longer ones leave a beam unknown
 
-// What a slab is to a surface, beside 1 and -1: excluded, and the sign of f.
+// What a slab is to a surface, beside 1 and -1: excluded, and the sign of f. Outside of the domain it is empty.
 constexpr double unknown = 0, monotone = 2, empty = 3;
 
 std::string of_surface(const char* name, std::size_t index) { return name + std::to_string(index); }
@@ -40,12 +42,10 @@ std::array<Vector, 9> components(const Slab& s) {
   return {s.middle, s.across, s.down, s.along, s.slack, s.way, s.turn_across, s.turn_down, s.bend};
 }
 
-// f and its derivative by depth as functions of u, v, w and of the numbers of a Slab, then the uniforms of f. Of a
+// With `slopes`, f and its gradient: f and its derivative by depth as functions of u, v, w and of the numbers of a Slab, then the uniforms of f. Of a
 // fraction the numerator, and the poles as a third output.
-std::optional<Program> over_beam(const Fraction& fraction, Diagnostics& diagnostics) {
+Program over_beam(const Fraction& fraction, const Program& slopes) {
   const Program& f = fraction.numerator;
-  const auto slopes = gradient(f, diagnostics);
-  if (!slopes) return std::nullopt;
   Program beam{.name = f.name};
   const auto input = [&](const std::string& name) {
     return Expr{&beam.graph, add_input(beam, name, f64, Rate::ray)};
@@ -64,28 +64,48 @@ std::optional<Program> over_beam(const Fraction& fraction, Diagnostics& diagnost
   const Vector direction = sum(sum(way, bend), sum(scaled(turn_across, u), scaled(turn_down, v)));
   std::vector<Expr> inputs(place.begin(), place.end());
   for (std::size_t i = 3; i < f.inputs.size(); ++i) inputs.push_back(input(f.inputs[i].name));
-  const auto values = inline_program(*slopes, inputs);
+  const auto values = inline_program(slopes, inputs);
   beam.outputs = {{"f", values[0].id}, {"slope", dot({values[1], values[2], values[3]}, direction).id}};
   if (fraction.poles) beam.outputs.push_back({"poles", inline_program(*fraction.poles, inputs).front().id});
   return beam;
+}
+
+// How far from its middle a slab goes in each coordinate, at most.
+Vector radius_of(const Slab& s) {
+  Vector radius;
+  for (std::size_t i = 0; i < 3; ++i)
+    radius[i] = add_up(add_up(abs(s.across[i]), abs(s.down[i])), add_up(abs(s.along[i]), s.slack[i]));
+  return radius;
+}
+
+// Whether no point of a slab lies in the domain, nor close to it.
+Truth is_outside(const Slab& s, const SpaceBounds& space) {
+  std::optional<Truth> any;
+  const Vector radius = radius_of(s);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double margin = 1e-3 * (space[i].hi - space[i].lo);
+    const Truth beside = add_up(radius[i], s.middle[i]) < space[i].lo - margin ||
+                         add_up(radius[i], -s.middle[i]) < -space[i].hi - margin;
+    any = any ? *any || beside : beside;
+  }
+  return *any;
 }
 
 // What the inputs of over_beam are held in. A slab elsewhere is unknown.
 struct Expected {
   std::vector<Range> ranges;
   SpaceBounds middle;
-  std::array<double, 3> reach;
+  double reach = 0;  // the longest side of the domain
 
   Expected(const SpaceBounds& space, std::size_t uniforms) {
     ranges.resize(3, {-1, 1});
     const auto add = [&](double lo, double hi) { ranges.push_back({lo, hi}); };
+    for (const Range& side : space) reach = std::max(reach, side.hi - side.lo);
     for (std::size_t i = 0; i < 3; ++i) {
-      reach[i] = space[i].hi - space[i].lo;
-      middle[i] = {space[i].lo - reach[i], space[i].hi + reach[i]};
+      middle[i] = {space[i].lo - reach, space[i].hi + reach};
       add(middle[i].lo, middle[i].hi);
     }
-    for (int part = 0; part < 4; ++part)
-      for (const double r : reach) add(-r, r);
+    for (int part = 0; part < 4 * 3; ++part) add(-reach, reach);
     for (int part = 0; part < 4 * 3; ++part) add(-longest_direction, longest_direction);
     ranges.resize(ranges.size() + uniforms, everything);
   }
@@ -93,12 +113,12 @@ struct Expected {
   Truth hold(const Slab& s) const {
     std::optional<Truth> all;
     const auto require = [&](Truth holds) { all = all ? *all && holds : holds; };
-    const Vector radius = sum(sum(absolute(s.across), absolute(s.down)), sum(absolute(s.along), s.slack));
+    const Vector radius = radius_of(s);
     const Vector length =
         sum(sum(absolute(s.way), s.bend), sum(absolute(s.turn_across), absolute(s.turn_down)));
     for (std::size_t i = 0; i < 3; ++i) {
       require(middle[i].lo <= s.middle[i] && s.middle[i] <= middle[i].hi);
-      require(radius[i] <= reach[i]);
+      require(radius[i] <= reach);
       require(length[i] <= longest_direction);
     }
     return *all;
@@ -109,6 +129,7 @@ struct Expected {
 struct Target {
   Program f;  // over_beam
   Expected expected;
+  Form* form;
 };
 
 class Stages {
@@ -116,9 +137,11 @@ class Stages {
   Stages(const Model& model, const SpaceBounds& space) : model_(model), space_(space) {}
 
   bool add_target(const Program& f, Diagnostics& diagnostics) {
-    auto beam = over_beam(searched(f), diagnostics);
-    if (!beam) return false;
-    targets_.push_back({*std::move(beam), {space_, f.inputs.size() - 3}});
+    const Fraction fraction = searched(f);
+    const auto slopes = gradient(fraction.numerator, diagnostics);
+    if (!slopes) return false;
+    targets_.push_back(
+        {over_beam(fraction, *slopes), {space_, f.inputs.size() - 3}, &affine_form_for(*slopes, space_)});
     return true;
   }
 
@@ -213,8 +236,7 @@ class Stages {
 
     std::vector<Expr> result;
     for (const Target& target : targets_) {
-      const auto bounds =
-          inclusion().enclose(target.f, {sides, variables, target.expected.ranges}, diagnostics);
+      const auto bounds = target.form(target.f, {sides, variables, target.expected.ranges}, diagnostics);
       if (!bounds) return std::nullopt;
       const Interval &f = (*bounds)[0], &slope = (*bounds)[1];
       const auto number = [&](double value) { return constant_like(unit, value); };
@@ -224,12 +246,11 @@ class Stages {
       const Expr known =
           select(f.empty, number(empty),
                  select(abs(sign) > 0, sign, select(single, number(monotone), number(unknown))));
-      result.push_back(select(target.expected.hold(s), known, number(unknown)));
+      result.push_back(select(is_outside(s, space_), number(empty),
+                              select(target.expected.hold(s), known, number(unknown))));
     }
     return result;
   }
-
-  static const Inclusion& inclusion() { return *inclusion_named("af1-ia"); }
 
   // The classes of the slabs of a cell. The first stage cuts the whole domain; others what the parent does not
   // exclude for all targets, with the signs in front of that.
@@ -305,15 +326,14 @@ class Stages {
       const Expr before = loop.state("before", entry(table(program, of_surface("before", t)), 0UL));
       const Expr from = loop.state("from", constant_like(first, slabs));
       const Expr to = loop.state("to", zero(first));
-      const Expr end = loop.state("end", zero(first));
+      const Expr end = loop.state("end", zero(first));  // of the last run
 
       const Expr c = entry(classes, k), sign = sign_of(c);
       const Truth excluded = is_excluded(c), single = equal(c, constant_like(c, monotone));
-      const Truth opens = single && !open && abs(before) > 0;
+      const Truth opens = single && !open;
       const Truth closed = open && excluded;
       const Truth change = closed && before * sign < 0, same = closed && before * sign > 0;
-      const Truth stuck =
-          (!excluded && !(single && (open || abs(before) > 0))) || (closed && !change && !same);
+      const Truth stuck = (!excluded && !single) || (closed && !change && !same);
       const Expr next = k + 1.0;
       const Truth running = !stopped;
       loop.next(k, next);
@@ -321,7 +341,7 @@ class Stages {
       loop.next(run, select(running && opens, k, run));
       loop.next(before, select(running && ((excluded && !open) || same), sign, before));
       loop.next(crosses, crosses || (running && change));
-      loop.next(end, select(running && change, k, end));
+      loop.next(end, select(running && (change || stuck), k, end));
       loop.next(from, select(running && (change || stuck), select(open, run, k), from));
       loop.next(stopped, stopped || change || stuck);
       loop.next(to, select(!excluded, next, to));
@@ -332,9 +352,10 @@ class Stages {
       const Expr begin = select(unfinished, loop.result(run), loop.result(from));
       const Expr stop = max(loop.result(to), begin);  // begin is the last of them where nothing is left
       const Truth left = begin < slabs;
+      const Expr run_end = select(unfinished, constant_like(first, slabs), max(loop.result(end), begin));
       output(program, of_surface("near", t), depths.at(begin));
       output(program, of_surface("far", t), depths.at(stop));
-      output(program, of_surface("end", t), depths.at(loop.result(end)));
+      output(program, of_surface("run", t), depths.at(run_end));
       output(program, of_surface("sign", t), loop.result(before));
       output(program, of_surface("crosses", t), select(loop.result(crosses), one(first), zero(first)));
       needed = needed ? *needed || left : left;
@@ -367,7 +388,7 @@ Beam beam_inputs(Program& program, std::size_t index) {
     return make(Op::load, table, Expr{&program.graph, program.graph.constant(f32, 0)});
   };
   const Expr near = number("near"), far = number("far");
-  return {near, far, number("crosses") > 0, number("end"), number("sign")};
+  return {near, far, number("run"), number("crosses") > 0, number("sign")};
 }
 
 }  // namespace imp

@@ -7,8 +7,9 @@
 //
 //    excluded, with the sign of f | empty: f has no value | monotone: df/ds excludes 0 | unknown
 //
-// A last stage reads the classes front to back. A change of sign across monotone slabs is the first hit of every ray
-// that has these slabs in its domain; equal signs are no root, and are left behind.
+// Slabs out of the domain are empty. A last stage reads the classes front to back. A change of sign across monotone
+// slabs is the first hit of every ray that has these slabs in its domain; equal signs are no root, and are left behind.
+// Where the sign beside a monotone run is not known, or the domain ends in it, each ray looks at the ends by itself.
 //
 // Lanes are slabs, so no lane waits for another; a slab costs one enclosure for up to 4096 rays.
 #pragma once
@@ -30,12 +31,11 @@ std::optional<Pipeline> beam_stages(const Model& model, const RenderOptions& opt
 // What the last of these stages tells of a surface for all rays of a cell of pixels. Depths are along the
 // camera's axis; a ray is at depth z where it has gone z times as far as to depth 1.
 struct Beam {
-  Expr near;  // no ray has a root before it
-  Expr far;   // nor behind it
-  Truth
-      crosses;  // f is monotone from near to `end` along each ray, and changes its sign, to be proven no more
-  Expr end;     // in [near, far]
-  Expr sign;    // of f at near, where it crosses
+  Expr near;      // no ray has a root before it
+  Expr far;       // nor behind it
+  Expr run;       // in [near, far]: to here f is monotone along each ray
+  Truth crosses;  // and changes its sign, to be proven no more
+  Expr sign;      // of f at near, where it crosses
 };
 
 // The inputs of a pixel's Program that hold it, for surface `index` of those drawn.

@@ -99,7 +99,8 @@ std::optional<Program> cast_program(const Surface& surface, const Search& search
   const auto found = search.build(result, *f, limits, diagnostics);
   if (!found) return std::nullopt;
 
-  const Expr s = refine(result, *f, found->bracket);
+  const Refined root = refine(result, *f, found->bracket);
+  const Expr s = root.s;
   std::vector<Expr> place;
   for (std::size_t i = 0; i < 3; ++i) place.push_back(segment.origin[i] + s * segment.direction[i]);
   for (const Uniform& each : uniforms) place.push_back(each.value);
@@ -109,7 +110,7 @@ std::optional<Program> cast_program(const Surface& surface, const Search& search
   const Expr nothing = constant_like(tmin, std::numeric_limits<double>::quiet_NaN());
   const auto output = [&](const char* name, Expr value) { result.outputs.push_back({name, value.id}); };
   const auto where_found = [&](Expr value) { return select(found->something, value, nothing); };
-  output("verdict", to(f64, found->verdict));
+  output("verdict", to(f64, verdict_with(root, found->verdict)));
   output("t", where_found(tmin + to(f64, s) * (tmax - tmin)));
   output("nx", where_found(to(f64, normal[0])));
   output("ny", where_found(to(f64, normal[1])));

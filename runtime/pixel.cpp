@@ -3,12 +3,14 @@
 #include <algorithm>
 
 #include "ir/infinity.h"
+#include "ir/loop.h"
 #include "passes/differentiate.h"
 #include "passes/inline.h"
 #include "passes/precision.h"
 #include "passes/surface_passes.h"
 #include "runtime/beam.h"
 #include "runtime/camera.h"
+#include "runtime/search/parts/proven.h"
 #include "runtime/search/parts/refine.h"
 #include "runtime/search/segment.h"
 #include "runtime/shade/phong.h"
@@ -79,24 +81,52 @@ class Pixel {
     return clip_to_box(ray_, min, vector_input("domain.max"));
   }
 
-  // The piece of the ray on which a surface is searched, and whether a beam has found all there is to find
-  // but the place.
+  // The piece of the ray on which a surface is searched, and whether all is found but the place.
   struct Piece {
     Expr near, far;
     Truth crosses;
     Expr sign;  // at near, where it crosses
   };
 
-  Piece piece_for(std::size_t drawn) {
+  Segment segment_of(Expr near, Expr far) const {
+    return segment_of_numbers(to(type_, ray_.origin), to(type_, ray_.direction), to(type_, near),
+                              to(type_, far));
+  }
+
+  std::optional<RayFunction> along(const Program& f, const Segment& segment, const Inclusion& inclusion) {
+    return ray_function(f, segment, uniforms_, inclusion, space_bounds(model_), diagnostics_);
+  }
+
+  std::optional<Piece> piece_for(const Program& f, std::size_t drawn, const Inclusion& inclusion) {
     const Piece all{clip_.near, clip_.far, truth_of(program_.graph, false), zero(clip_.near)};
     if (!beams_) return all;
     const Beam beam = beam_inputs(program_, drawn);
     const auto distance = [&](Expr depth) { return ray_.length * depth; };
-    const Expr begin = distance(beam.near), end = distance(beam.end);
-    const Truth inside = clip_.near <= begin && end <= clip_.far;
-    const Truth crosses = beam.crosses && inside;
-    return {max(clip_.near, begin), select(crosses, end, min(clip_.far, distance(beam.far))), crosses,
-            beam.sign};
+    const Expr begin = distance(beam.near), end = distance(beam.run);
+    const Expr near = max(clip_.near, begin), far = min(clip_.far, distance(beam.far));
+    const Expr run = min(clip_.far, end);
+    const Truth crosses = beam.crosses && clip_.near <= begin && end <= clip_.far;
+
+    const auto in_run = along(f, segment_of(near, run), inclusion);
+    if (!in_run) return std::nullopt;
+    const auto [before, after] = signs_at_ends(*in_run, drawn, near < run && !crosses);
+    const Truth same = before * after > 0, opposite = before * after < 0;
+    return Piece{select(same, run, near), select(crosses || opposite, run, far), crosses || opposite,
+                 select(crosses, beam.sign, to(f32, before))};
+  }
+
+  // Proven, for those rays that want it; else 0.
+  std::array<Expr, 2> signs_at_ends(const RayFunction& f, std::size_t drawn, Truth wanted) {
+    Loop loop(program_, "ends" + std::to_string(drawn), 2);
+    const Expr s = loop.state("s", zero(f.like));
+    const Expr before = loop.state("before", zero(f.like));
+    const Expr after = loop.state("after", zero(f.like));
+    loop.next(s, one(f.like));
+    loop.next(before, after);
+    loop.next(after, proven_sign(f.bound_at(s)));
+    loop.enter_if(wanted);
+    loop.again_while(s < 1);
+    return {loop.result(before), loop.result(after)};
   }
 
   // The strategy is for those rays on which the beam has not found all.
@@ -116,19 +146,20 @@ class Pixel {
   }
 
   std::optional<Sight> look_at(const Program& f, std::size_t drawn) {
-    const Piece piece = piece_for(drawn);
-    const Segment segment = segment_of_numbers(to(type_, ray_.origin), to(type_, ray_.direction),
-                                               to(type_, piece.near), to(type_, piece.far));
     const Method method = choose_method(f, options_.wish, options_.kernel);
-    const auto along =
-        ray_function(f, segment, uniforms_, *method.inclusion, space_bounds(model_), diagnostics_);
+    const auto whole = piece_for(f, drawn, *method.inclusion);
     const auto slopes = gradient(f, diagnostics_);
-    if (!along || !slopes) return std::nullopt;
-    const auto found = beams_ ? find_behind_beam(*along, piece, *method.search)
-                              : method.search->build(program_, *along, options_.limits, diagnostics_);
+    if (!whole || !slopes) return std::nullopt;
+    const Piece& piece = *whole;
+    const Segment segment = segment_of(piece.near, piece.far);
+    const auto on_piece = along(f, segment, *method.inclusion);
+    if (!on_piece) return std::nullopt;
+    const auto found = beams_ ? find_behind_beam(*on_piece, piece, *method.search)
+                              : method.search->build(program_, *on_piece, options_.limits, diagnostics_);
     if (!found) return std::nullopt;
 
-    const Expr s = refine(program_, *along, found->bracket);
+    const Refined root = refine(program_, *on_piece, found->bracket);
+    const Expr s = root.s;
     std::vector<Expr> place;
     for (std::size_t i = 0; i < 3; ++i) place.push_back(segment.origin[i] + s * segment.direction[i]);
     for (const Uniform& each : uniforms_) place.push_back(each.value);
@@ -136,7 +167,7 @@ class Pixel {
     Vector normal = to(f32, normalized({values[1], values[2], values[3]}));
     const Truth regular = dot(normal, normal) > 0.5;
     for (std::size_t i = 0; i < 3; ++i) normal[i] = select(regular, normal[i], -ray_.direction[i]);
-    const Expr verdict = to(f32, found->verdict);
+    const Expr verdict = to(f32, verdict_with(root, found->verdict));
     const auto distance = [&](Expr share) { return piece.near + to(f32, share) * (piece.far - piece.near); };
     const Expr nowhere = constant_like(verdict, infinity);
     const Expr begin =

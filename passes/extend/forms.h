@@ -16,6 +16,10 @@ Form affine_and_interval_form;
 // Both at once, and either where it pays: see auto.cpp.
 Form auto_form;
 
+// Of these two the one for f and the other outputs of a Program in x, y, z: with intersections where they make small
+// boxes of the domain much narrower.
+Form& affine_form_for(const Program& f, std::span<const Range> domain);
+
 // All below are centred: f in the middle c of the box, and bounds of what the way to its points may add. Where f
 // may not be continuous or a bound is missing, intervals stand in; elsewhere the two are intersected.
 

@@ -38,6 +38,21 @@ TEST(Refine, certified_roots_lie_where_they_are_said_to) {
     }
 }
 
+// The second root lies less than a float behind the place between them that was found.
+TEST(Refine, two_roots_that_nearly_touch) {
+  const Ray ray{{0.9920680792001177, 0.8031464709853743, -0.43117693859188566},
+                {-0.2845901874144085, -0.659121415454014, -0.6958386244293698},
+                -0.46709945275208054,
+                0.9971034045100494};
+  for (const char* name : {"stackless", "isolate", "segment", "bernstein"}) {
+    const Caster cast(model_of("T(18, x) + T(18, y) + T(18, z) = 0"), {}, {}, {}, *inclusion_named("auto"),
+                      *search_named(name));
+    const Answer answer = cast(std::vector{ray})[0];
+    if (answer.verdict != verdict_hit) continue;
+    EXPECT_NEAR(answer.t, -2.63612126e-5, certified_length * (ray.tmax - ray.tmin)) << name;
+  }
+}
+
 // The eye touches one surface; another lies behind it.
 TEST(Refine, a_root_that_is_not_decided_hides_what_is_behind_it) {
   const Model model = model_of(

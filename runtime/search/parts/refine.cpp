@@ -55,14 +55,8 @@ Approach approach(Program& program, const RayFunction& f, const Bracket& bracket
   return {loop.result(s), loop.result(slope)};
 }
 
-// A root as near as is promised, if signs of f in double prove that to double's satisfaction.
-struct Probe {
-  Expr root;  // by the chord
-  Truth enclosed;
-};
-
 // Looks at both sides of s.
-Probe probe(const RayFunction& f, const Bracket& bracket, Expr s) {
+Refined probe(const RayFunction& f, const Bracket& bracket, Expr s) {
   const Expr lo = max(s - 0.5 * near, bracket.a), hi = min(s + 0.5 * near, bracket.b);
   const Expr at_lo = f.value_in_double(lo), at_hi = f.value_in_double(hi);
   const Expr sign_a = to(f64, bracket.sign_a);
@@ -73,8 +67,8 @@ Probe probe(const RayFunction& f, const Bracket& bracket, Expr s) {
 // Where the probe fails, the same bracket again with f in double. A step that seems to arrive is followed by a look at
 // the other side of the root, and from there further and further. The slope stays as it is: near the root it is as good
 // as another one, and half of what a step would take.
-Expr polish(Program& program, const RayFunction& f, const Bracket& bracket, const Approach& start,
-            Truth wanted) {
+Refined polish(Program& program, const RayFunction& f, const Bracket& bracket, const Approach& start,
+               Truth wanted) {
   const auto& [a, b, sign_a, changes] = bracket;
 
   Loop loop(program, "polish", 64);
@@ -84,6 +78,7 @@ Expr polish(Program& program, const RayFunction& f, const Bracket& bracket, cons
   const Expr last = loop.state("last", b - a);
   const Expr reach = loop.state("reach", constant_like(a, 0.5 * near));
   const Expr best = loop.state("best", start.s);
+  const Truth found = loop.state("found", truth_of(program.graph, false));
 
   const Expr value = f.value_in_double(s);
   const Truth right = value * to(f64, sign_a) > 0;
@@ -100,19 +95,25 @@ Expr polish(Program& program, const RayFunction& f, const Bracket& bracket, cons
   loop.next(last, select(arrives, step.hi - step.lo, length));
   loop.next(reach, select(arrives, 8.0 * reach, reach));
   loop.next(best, step.next);
+  loop.next(found, enclosed && equal(value, value));
   loop.enter_if(wanted);
   loop.again_while(equal(value, value) && !enclosed);
-  return loop.result(best);
+  return {loop.result(best), loop.result(found)};
 }
 
 }  // namespace
 
-Expr refine(Program& program, const RayFunction& f, const Bracket& bracket) {
-  const Approach found = approach(program, f, bracket);
-  if (f.like.type() == f64) return found.s;
-  const Probe seen = probe(f, bracket, found.s);
-  const Expr polished = polish(program, f, bracket, found, bracket.changes && !seen.enclosed);
-  return select(seen.enclosed, seen.root, polished);
+Refined refine(Program& program, const RayFunction& f, const Bracket& bracket) {
+  const Approach start = approach(program, f, bracket);
+  if (f.like.type() == f64) return {start.s, bracket.changes};
+  const Refined seen = probe(f, bracket, start.s);
+  const Refined polished = polish(program, f, bracket, start, bracket.changes && !seen.enclosed);
+  return {select(seen.enclosed, seen.s, polished.s), seen.enclosed || polished.enclosed};
+}
+
+Expr verdict_with(const Refined& root, Expr verdict) {
+  const Truth hit = equal(verdict, constant_like(verdict, verdict_hit));
+  return select(hit && !root.enclosed, constant_like(verdict, verdict_undecided), verdict);
 }
 
 }  // namespace imp

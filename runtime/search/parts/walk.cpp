@@ -21,12 +21,9 @@ namespace {
 
 constexpr std::uint32_t highest_float_degree = 6;
 
-// Numbers of the kernel's type around a place that is known in f64, up to the rounding of some thousand steps.
+// A number of the kernel's type that is not above a place known in f64, up to the rounding of some thousand steps. Both
+// ends of a run are moved down: the last piece before it is excluded, but right behind it another root may lie.
 constexpr double place_error = 0x1p-38;
-Expr above(Expr s, Type type) {
-  const Expr higher = min(s + place_error, one(s));
-  return type == f32 ? narrow_up(higher) : higher;
-}
 Expr below(Expr s, Type type) {
   const Expr lower = min(place_error - s, zero(s));
   return -(type == f32 ? narrow_up(lower) : lower);
@@ -119,7 +116,7 @@ Found walk_from(Program& program, const RayFunction& f, std::span<const Interval
   return answer(f,
                 {.found = found,
                  .a = below(loop.result(run), type),
-                 .b = above(loop.result(s), type),
+                 .b = below(loop.result(s), type),
                  .before = loop.result(before),
                  .after = loop.result(after),
                  .smooth = smooth,
