@@ -83,12 +83,16 @@ Image image_of(const Picture& picture, const RenderOptions& wanted) {
   return image;
 }
 
+// A smaller picture is done before the kernels of the tiles would be made.
+constexpr std::size_t least_tiled_picture = 256 * 256;
+
 struct Render {
   Options options;
   RenderOptions picture;
   std::string file, output;
-  std::size_t repeat = 0;  // 0: not asked for
-  unsigned threads = 0;    // 0: one a core
+  std::size_t repeat = 0;     // 0: not asked for
+  std::optional<bool> tiles;  // nothing: where the picture is large enough
+  unsigned threads = 0;       // 0: one a core
 
   void take_channels(const std::string& words) {
     picture.depth = picture.normal = picture.steps = picture.verdict = false;
@@ -100,6 +104,7 @@ struct Render {
 
   // What can only be judged once all options are known.
   void settle() {
+    picture.tiles = tiles.value_or(picture.width * picture.height >= least_tiled_picture);
     if (output.empty()) output = file == "-" ? "out.png" : fs::path(file).stem().string() + ".png";
     const std::string extension = output == "-" ? ".png" : fs::path(output).extension().string();
     if (extension != ".png" && extension != ".exr")
@@ -144,8 +149,8 @@ struct Render {
       while (times.size() < std::max<std::size_t>(repeat, 1)) {
         const double done = static_cast<double>(times.size());
         const Stopwatch rendering;
-        result =
-            renderer->frame(*uniforms, {}, [&](double share) { progress.show((done + share) / frames); });
+        result = renderer->frame(
+            *uniforms, {}, [&](double share) { progress.show((done + share) / frames); }, std::move(result));
         times.push_back(rendering.milliseconds());
       }
     }
@@ -184,8 +189,9 @@ Action add_render(CLI::App& verb) {
   add_size(verb, picture);
   add_choice(verb, "--thin", thin_choices, "how undecided pixels are drawn (draw)",
              [&picture](std::size_t i) { picture.thin = static_cast<Thin>(i); });
-  add_choice(verb, "--tiles", tile_choices, "whether tiles of rays are searched together first (on)",
-             [&picture](std::size_t i) { picture.tiles = i == 0; });
+  add_choice(verb, "--tiles", tile_choices,
+             "whether tiles of rays are searched together first (on from 256x256 pixels)",
+             [=](std::size_t i) { render->tiles = i == 0; });
   add_value(verb, "--aov", "LIST", "further channels of an .exr, of depth,normal,steps,verdict",
             [=](const std::string& words) { render->take_channels(words); });
   add_value(verb, "--threads", "N", "how many work at once (one a core)", [=](const std::string& text) {
