@@ -13,6 +13,8 @@ namespace {
 constexpr std::uint32_t highest_degree = 12;
 constexpr double least_operations = 1.5;  // of f, for each degree
 
+constexpr double most_in_a_shader = 30;  // operations of f, for any form but intervals
+
 // The total degree of a polynomial.
 std::optional<std::uint32_t> degree(const Program& f) {
   constexpr std::size_t variables[] = {0, 1, 2};
@@ -59,9 +61,9 @@ Method choose_method(const Program& f, const Wish& wish, const KernelOptions& ke
   Method method{wish.search, wish.inclusion, !wish.search && kernel.precision == f32, {}};
   if (!method.search) choose_search(method, f, kernel);
   if (!method.inclusion) {
-    const bool too_long = kernel.backend == Backend::glsl && !degree(f);
+    const bool too_long = kernel.backend == Backend::glsl && (!degree(f) || operations(f) > most_in_a_shader);
     method.inclusion = inclusion_named(too_long ? "ia" : "auto");
-    if (too_long) method.reason += "; intervals, as affine forms of such a formula make a shader too long";
+    if (too_long) method.reason += "; intervals, as tighter forms of such a formula make a shader too long";
   }
   IMP_ASSERT(method.search && method.inclusion, "rows of the tables");
   return method;

@@ -98,6 +98,7 @@ struct Search {
   std::string_view name;
   std::string_view summary;  // one line for `imp list searches`
   Strategy build;
+  bool by_coefficients = false;  // of a polynomial: whatever the inclusion
 };
 
 // Every strategy, by name.

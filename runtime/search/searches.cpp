@@ -12,10 +12,10 @@ std::span<const Search> searches() {
              stackless},
       Search{"isolate", "pieces on which df/ds excludes 0, and the signs at their ends", isolate},
       Search{"bernstein",
-             "sign variations of Bernstein coefficients, for polynomials (Seland and Dokken 2007)",
-             bernstein},
+             "sign variations of Bernstein coefficients, for polynomials (Seland and Dokken 2007)", bernstein,
+             true},
       Search{"polynomial", "between the critical points, by those of the derivatives (Yuksel 2022)",
-             polynomial},
+             polynomial, true},
       Search{"segment", "steps by the slopes of the piece ahead (Galin et al. 2020)", segment_tracing},
   };
   return list;

@@ -132,7 +132,8 @@ void print_by_way(const std::vector<test::Way>& ways, const std::vector<Count>& 
 bool searches(const SearchOptions& options) {
   std::vector<test::Way> ways;
   for (const std::string& inclusion : options.inclusions)
-    for (const test::Way& way : test::every_way({inclusion})) ways.push_back(way);
+    for (const test::Way& way : test::every_way({inclusion}))
+      if (!way.search->by_coefficients || inclusion == options.inclusions.front()) ways.push_back(way);
   std::vector<Count> totals(ways.size());
   const auto in_first_table = [&](const test::Way& way) { return way.inclusion == ways.front().inclusion; };
 
