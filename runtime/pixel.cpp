@@ -93,6 +93,17 @@ class Pixel {
                               to(type_, far));
   }
 
+  // Its places with all that the rounding of any other segment of the same ray may make of them: what is proven here
+  // holds there.
+  Segment padded(Segment segment) {
+    const Expr pad = 2.0 * to(type_, input("pad.place", f32, Rate::frame));
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Interval& place = segment.origin_bounds[i];
+      segment.origin_bounds[i] = interval(add_up(place.nlo, pad), add_up(place.hi, pad));
+    }
+    return segment;
+  }
+
   std::optional<RayFunction> along(const Program& f, const Segment& segment, const Inclusion& inclusion) {
     return ray_function(f, segment, uniforms_, inclusion, space_bounds(model_), diagnostics_);
   }
@@ -107,7 +118,7 @@ class Pixel {
     const Expr run = min(clip_.far, end);
     const Truth crosses = beam.crosses && clip_.near <= begin && end <= clip_.far;
 
-    const auto in_run = along(f, segment_of(near, run), inclusion);
+    const auto in_run = along(f, padded(segment_of(near, run)), inclusion);
     if (!in_run) return std::nullopt;
     const auto [before, after] = signs_at_ends(*in_run, drawn, near < run && !crosses);
     const Truth same = before * after > 0, opposite = before * after < 0;
@@ -115,18 +126,18 @@ class Pixel {
                  select(crosses, beam.sign, to(f32, before))};
   }
 
-  // Proven, for those rays that want it; else 0.
+  // At s = 0 and s = 1: proven, for those rays that want it; else 0.
   std::array<Expr, 2> signs_at_ends(const RayFunction& f, std::size_t drawn, Truth wanted) {
     Loop loop(program_, "ends" + std::to_string(drawn), 2);
     const Expr s = loop.state("s", zero(f.like));
-    const Expr before = loop.state("before", zero(f.like));
-    const Expr after = loop.state("after", zero(f.like));
+    const Expr first = loop.state("first", zero(f.like));
+    const Expr last = loop.state("last", zero(f.like));
     loop.next(s, one(f.like));
-    loop.next(before, after);
-    loop.next(after, proven_sign(f.bound_at(s)));
+    loop.next(first, last);
+    loop.next(last, proven_sign(f.bound_at(s)));
     loop.enter_if(wanted);
     loop.again_while(s < 1);
-    return {loop.result(before), loop.result(after)};
+    return {loop.result(first), loop.result(last)};
   }
 
   // The strategy is for those rays on which the beam has not found all.
@@ -184,7 +195,8 @@ class Pixel {
     const Truth a_first = place(a) <= place(b);
     const auto pick = [&](Expr p, Expr q) { return select(a_first, p, q); };
     const Expr first = pick(a.verdict, b.verdict), other = pick(b.verdict, a.verdict);
-    const Expr off = 2 * certified_length * (clip_.far - clip_.near);  // what a hit's place may be, and more
+    // What a hit's place may be off, and more.
+    const Expr off = 2 * certified_length * (clip_.far - clip_.near) + 0x1p-20 * clip_.far;
     const Truth certain = other >= verdict_miss || pick(b.begin, a.begin) - pick(a.t, b.t) > off;
     Sight result;
     result.verdict = select(certain, first, constant_like(first, verdict_undecided));

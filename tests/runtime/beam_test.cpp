@@ -12,7 +12,7 @@ namespace imp {
 namespace {
 
 // By `search` behind beams and without them. 70 and 50 are no multiples of a cell.
-void compare(const Model& model, const char* search, std::size_t least_hits = 1) {
+std::size_t compare(const Model& model, const char* search) {
   RenderOptions options = test::sized(70, 50);
   options.depth = true;
   options.wish.search = search ? search_named(search) : nullptr;
@@ -22,19 +22,19 @@ void compare(const Model& model, const char* search, std::size_t least_hits = 1)
   for (std::size_t i = 0; i < rays.verdict.size(); ++i) {
     EXPECT_FALSE(test::contradict(tiled.verdict[i], rays.verdict[i])) << "pixel " << i;
     if (tiled.verdict[i] == verdict_hit && rays.verdict[i] == verdict_hit) {
-      EXPECT_NEAR(tiled.depth[i], rays.depth[i], 1e-3F * rays.depth[i]) << "pixel " << i;
+      EXPECT_NEAR(tiled.depth[i], rays.depth[i], 1e-3F) << "pixel " << i;
     }
   }
   // Other ends of the segments decide other grazing rays.
   EXPECT_LE(tiled.count(verdict_undecided), 1.1 * static_cast<double>(rays.count(verdict_undecided)) + 5)
       << test::verdicts(tiled) << test::verdicts(rays);
-  EXPECT_GE(tiled.count(verdict_hit), least_hits);
+  return tiled.count(verdict_hit);
 }
 
 TEST(Beams, show_the_picture_of_the_rays) {
   for (const char* id : {"sphere", "torus", "steiner", "tangle", "klein_bottle", "blobby"}) {
     SCOPED_TRACE(id);
-    compare(test::model_of(test::entry_named(id)), nullptr);
+    EXPECT_GT(compare(test::model_of(test::entry_named(id)), nullptr), 0U);
   }
 }
 
@@ -64,7 +64,7 @@ TEST(Beams, take_nearly_all_steps_off_a_sheet) {
         options);
     double steps = 0;
     for (const float each : picture.steps) steps += each;
-    EXPECT_LT(steps, 0.25 * static_cast<double>(picture.count(verdict_hit))) << domain;
+    EXPECT_LT(steps, 0.6 * static_cast<double>(picture.count(verdict_hit))) << domain;
     EXPECT_GT(picture.count(verdict_hit), 5000U);
     EXPECT_EQ(picture.count(verdict_undecided), 0U);
   }
@@ -79,6 +79,7 @@ TEST(Beams, of_random_scenes) {
   const auto place = [&](double size) {
     return fmt::format("({}, {}, {})", number(-size, size), number(-size, size), number(-size, size));
   };
+  std::size_t hits = 0;
   for (std::size_t i = 0; i < test::effort(24); ++i) {
     std::string text = number(-1, 1);
     for (const char* term :
@@ -89,14 +90,43 @@ TEST(Beams, of_random_scenes) {
     text +=
         fmt::format("\ncamera from {} to {} fov {}", place(i % 4 == 0 ? 1 : 5), place(0.3), number(10, 90));
     SCOPED_TRACE(text);
-    compare(test::model_of(text), nullptr, 0);
+    hits += compare(test::model_of(text), nullptr);
+  }
+  EXPECT_GT(hits, 200 * test::effort(24));
+}
+
+// Where floats round a place by more than the distance of neighbouring roots from the end of a run: far away, and far from
+// the origin. The line of a ray may be a rounding off, so silhouettes differ, but no root in front of another is lost.
+TEST(Beams, lose_no_root_to_rounding) {
+  for (const char* text :
+       {"x^2 + y^2 + z^2 = 0.8\ndomain box((-1, -1, -1), (1, 1, 1))\n"
+        "camera from (300, 200, 1000) to (0, 0, 0) fov 0.11",
+        "x^2 + y^2 + z^2 = 0.8\ndomain box((-1, -1, -1), (1, 1, 1))\n"
+        "camera from (3000, 2000, 10000) to (0, 0, 0) fov 0.011",
+        "(x - 1000)^2 + (y - 1000)^2 + (z - 1000)^2 = 1\ndomain box((999, 999, 1000), (1001, 1001, 1001))\n"
+        "camera from (1000.9, 1000.6, 1003) to (1000, 1000, 1000.5) fov 50"}) {
+    SCOPED_TRACE(text);
+    const Model model = test::model_of(text);
+    RenderOptions options = test::sized(512, 512);
+    options.depth = true;
+    const Picture tiled = test::render(model, options);
+    options.tiles = false;
+    const Picture rays = test::render(model, options);
+    int contradictions = 0, elsewhere = 0;
+    for (std::size_t i = 0; i < rays.verdict.size(); ++i) {
+      const bool both = tiled.verdict[i] == verdict_hit && rays.verdict[i] == verdict_hit;
+      elsewhere += both && std::abs(tiled.depth[i] - rays.depth[i]) > 0.04F ? 1 : 0;
+      contradictions += test::contradict(tiled.verdict[i], rays.verdict[i]) ? 1 : 0;
+    }
+    EXPECT_EQ(elsewhere, 0);
+    EXPECT_LE(contradictions, 40);  // of 1600 pixels on the silhouette
   }
 }
 
 TEST(Beams, stand_before_any_strategy) {
   for (const Search& search : searches()) {
     SCOPED_TRACE(search.name);
-    compare(test::model_of(test::entry_named("torus")), search.name.data());
+    EXPECT_GT(compare(test::model_of(test::entry_named("torus")), search.name.data()), 0U);
   }
 }
 
@@ -110,7 +140,7 @@ TEST(Beams, for_every_camera_and_domain) {
            "domain box((-1, -1, 0.3), (1, 1, 0.4))\ncamera from (3, 2, 4) to (0, 0, 0) fov 20",  // cuts it
        }) {
     SCOPED_TRACE(view);
-    compare(test::model_of(std::string(surface) + view), nullptr);
+    EXPECT_GT(compare(test::model_of(std::string(surface) + view), nullptr), 0U);
   }
 }
 
@@ -132,9 +162,11 @@ TEST(Beams, miss_what_has_no_values) {
 }
 
 TEST(Beams, of_several_surfaces) {
-  compare(test::model_of(
-              "surface ball: x^2 + y^2 + z^2 = 1\nsurface plane: x + y = 0.3\ndomain sphere(radius: 2)"),
-          nullptr);
+  EXPECT_GT(
+      compare(test::model_of(
+                  "surface ball: x^2 + y^2 + z^2 = 1\nsurface plane: x + y = 0.3\ndomain sphere(radius: 2)"),
+              nullptr),
+      0U);
 }
 
 }  // namespace

@@ -29,13 +29,16 @@ const StiffRay stiff_rays[] = {
 };
 
 TEST(Refine, certified_roots_lie_where_they_are_said_to) {
+  int hits = 0;
   for (const char* name : {"stackless", "isolate", "segment"})
     for (const auto& [f, ray, t] : stiff_rays) {
       const Caster cast(model_of(f), {}, {}, {}, *inclusion_named("auto"), *search_named(name));
       const Answer answer = cast(std::vector{ray})[0];
       if (answer.verdict != verdict_hit) continue;
+      ++hits;
       EXPECT_NEAR(answer.t, t, certified_length * (ray.tmax - ray.tmin)) << name << ": " << f;
     }
+  EXPECT_GE(hits, 8);
 }
 
 // The second root lies less than a float behind the place between them that was found.
@@ -48,6 +51,7 @@ TEST(Refine, two_roots_that_nearly_touch) {
     const Caster cast(model_of("T(18, x) + T(18, y) + T(18, z) = 0"), {}, {}, {}, *inclusion_named("auto"),
                       *search_named(name));
     const Answer answer = cast(std::vector{ray})[0];
+    if (std::string_view(name) == "bernstein") { EXPECT_EQ(answer.verdict, verdict_hit); }
     if (answer.verdict != verdict_hit) continue;
     EXPECT_NEAR(answer.t, -2.63612126e-5, certified_length * (ray.tmax - ray.tmin)) << name;
   }
