@@ -38,12 +38,13 @@ struct Slab {
 // The names of what a Slab holds, in the order of `components`.
 constexpr const char* slab_names[] = {"middle", "across",      "down",      "along", "slack",
                                       "way",    "turn_across", "turn_down", "bend"};
+constexpr std::size_t slack_component = 4, bend_component = 8;
 std::array<Vector, 9> components(const Slab& s) {
   return {s.middle, s.across, s.down, s.along, s.slack, s.way, s.turn_across, s.turn_down, s.bend};
 }
 
-// With `slopes`, f and its gradient: f and its derivative by depth as functions of u, v, w and of the numbers of a Slab, then the uniforms of f. Of a
-// fraction the numerator, and the poles as a third output.
+// f and its derivative by depth as functions of u, v, w and of the numbers of a Slab, then the uniforms of f. Of a
+// fraction the numerator, and the poles as a third output. `slopes`: f and its gradient.
 Program over_beam(const Fraction& fraction, const Program& slopes) {
   const Program& f = fraction.numerator;
   Program beam{.name = f.name};
@@ -80,15 +81,15 @@ Vector radius_of(const Slab& s) {
 
 // Whether no point of a slab lies in the domain, nor close to it.
 Truth is_outside(const Slab& s, const SpaceBounds& space) {
-  std::optional<Truth> any;
+  Truth any = truth_of(*s.middle[0].graph, false);
   const Vector radius = radius_of(s);
   for (std::size_t i = 0; i < 3; ++i) {
     const double margin = 1e-3 * (space[i].hi - space[i].lo);
     const Truth beside = add_up(radius[i], s.middle[i]) < space[i].lo - margin ||
                          add_up(radius[i], -s.middle[i]) < -space[i].hi - margin;
-    any = any ? *any || beside : beside;
+    any = any || beside;
   }
-  return *any;
+  return any;
 }
 
 // What the inputs of over_beam are held in. A slab elsewhere is unknown.
@@ -111,8 +112,8 @@ struct Expected {
   }
 
   Truth hold(const Slab& s) const {
-    std::optional<Truth> all;
-    const auto require = [&](Truth holds) { all = all ? *all && holds : holds; };
+    Truth all = truth_of(*s.middle[0].graph, true);
+    const auto require = [&](Truth holds) { all = all && holds; };
     const Vector radius = radius_of(s);
     const Vector length =
         sum(sum(absolute(s.way), s.bend), sum(absolute(s.turn_across), absolute(s.turn_down)));
@@ -121,7 +122,7 @@ struct Expected {
       require(radius[i] <= reach);
       require(length[i] <= longest_direction);
     }
-    return *all;
+    return all;
   }
 };
 
@@ -223,7 +224,7 @@ class Stages {
     std::vector<Interval> sides(3, interval(unit, unit, {.bounded = true}));
     for (const Vector& part : components(s))
       for (const Expr value : part) sides.push_back(point(value));
-    for (const std::size_t part : {4U, 8U})  // slack and bend
+    for (const std::size_t part : {slack_component, bend_component})
       for (std::size_t i = 0; i < 3; ++i) {
         const Expr value = components(s)[part][i];
         sides[3 + 3 * part + i] = interval(value, value);
@@ -292,16 +293,16 @@ class Stages {
                                       depths.at(k + 1.0), pad_place, pad_way),
                                  diagnostics);
     if (!result) return std::nullopt;
-    std::optional<Truth> needed;
+    Truth needed = truth_of(program.graph, false);
     for (std::size_t t = 0; t < targets_.size(); ++t) {
       output(program, of_surface("class", t), (*result)[t]);
       output(program, of_surface("before", t), before[t]);
       const Truth left = !is_excluded((*result)[t]);
-      needed = needed ? *needed || left : left;
+      needed = needed || left;
     }
     output(program, "near", near);
     output(program, "far", far);
-    output(program, "needed", select(*needed, one(near), zero(near)));
+    output(program, "needed", select(needed, one(near), zero(near)));
     return program;
   }
 
@@ -313,7 +314,7 @@ class Stages {
     Program program{.name = "crossing"};
     const Expr first = entry(table(program, "near"), 0UL), last = entry(table(program, "far"), 0UL);
     const Depths depths{first, (1.0 / slabs) * (last - first)};
-    std::optional<Truth> needed;
+    Truth needed = truth_of(program.graph, false);
     for (std::size_t t = 0; t < targets_.size(); ++t) {
       const Expr classes = table(program, of_surface("class", t));
       Loop loop(program, of_surface("read", t), slabs);
@@ -358,9 +359,9 @@ class Stages {
       output(program, of_surface("run", t), depths.at(run_end));
       output(program, of_surface("sign", t), loop.result(before));
       output(program, of_surface("crosses", t), select(loop.result(crosses), one(first), zero(first)));
-      needed = needed ? *needed || left : left;
+      needed = needed || left;
     }
-    output(program, "needed", select(*needed, one(first), zero(first)));
+    output(program, "needed", select(needed, one(first), zero(first)));
     return program;
   }
 

@@ -5,9 +5,9 @@
 // over a whole slab (affine forms over two picture axes and the depth: Flórez, Sbert, Sainz and Vehí 2008 cast beams
 // with interval methods), and tell of what class it is for every ray:
 //
-//    excluded, with the sign of f | empty: f has no value | monotone: df/ds excludes 0 | unknown
+//    excluded, with the sign of f | empty: f has no value, or it is out of the domain | monotone: df/ds excludes 0 | unknown
 //
-// Slabs out of the domain are empty. A last stage reads the classes front to back. A change of sign across monotone
+// A last stage reads the classes front to back. A change of sign across monotone
 // slabs is the first hit of every ray that has these slabs in its domain; equal signs are no root, and are left behind.
 // Where the sign beside a monotone run is not known, or the domain ends in it, each ray looks at the ends by itself.
 //
@@ -33,9 +33,9 @@ std::optional<Pipeline> beam_stages(const Model& model, const RenderOptions& opt
 struct Beam {
   Expr near;      // no ray has a root before it
   Expr far;       // nor behind it
-  Expr run;       // in [near, far]: to here f is monotone along each ray
-  Truth crosses;  // and changes its sign, to be proven no more
-  Expr sign;      // of f at near, where it crosses
+  Expr run;       // in [near, far]: f is monotone along each ray from near to here
+  Truth crosses;  // f changes its sign between near and run: the first hit of each ray that has both in the domain
+  Expr sign;      // of f at near, if so
 };
 
 // The inputs of a pixel's Program that hold it, for surface `index` of those drawn.

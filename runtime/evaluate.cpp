@@ -79,8 +79,6 @@ std::optional<Program> evaluation_program(const Surface& surface, Evaluation eva
 std::optional<Program> cast_program(const Surface& surface, const Search& search, const Inclusion& inclusion,
                                     const SearchLimits& limits, Type precision, Diagnostics& diagnostics) {
   const Program simple = simplified(surface.f);
-  const auto gradient_of_f = gradient(simple, diagnostics);
-  if (!gradient_of_f) return std::nullopt;
 
   Program result{.name = surface.name};
   const auto input = [&](const std::string& name) {
@@ -101,20 +99,17 @@ std::optional<Program> cast_program(const Surface& surface, const Search& search
 
   const Refined root = refine(result, *f, found->bracket);
   const Expr s = root.s;
-  std::vector<Expr> place;
-  for (std::size_t i = 0; i < 3; ++i) place.push_back(segment.origin[i] + s * segment.direction[i]);
-  for (const Uniform& each : uniforms) place.push_back(each.value);
-  const auto values = inline_program(in_precision(*gradient_of_f, precision), place);
-  const Vector normal = normalized({values[1], values[2], values[3]});
+  const auto normal = normal_at(simple, segment, uniforms, s, diagnostics);
+  if (!normal) return std::nullopt;
 
   const Expr nothing = constant_like(tmin, std::numeric_limits<double>::quiet_NaN());
   const auto output = [&](const char* name, Expr value) { result.outputs.push_back({name, value.id}); };
   const auto where_found = [&](Expr value) { return select(found->something, value, nothing); };
   output("verdict", to(f64, verdict_with(root, found->verdict)));
   output("t", where_found(tmin + to(f64, s) * (tmax - tmin)));
-  output("nx", where_found(to(f64, normal[0])));
-  output("ny", where_found(to(f64, normal[1])));
-  output("nz", where_found(to(f64, normal[2])));
+  output("nx", where_found(to(f64, (*normal)[0])));
+  output("ny", where_found(to(f64, (*normal)[1])));
+  output("nz", where_found(to(f64, (*normal)[2])));
   output("steps", to(f64, found->steps));
   return result;
 }

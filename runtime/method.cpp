@@ -53,9 +53,7 @@ void choose_search(Method& method, const Program& f, const KernelOptions& kernel
 
 }  // namespace
 
-Wish second_wish(const Wish& wish) {
-  return {wish.search ? wish.search : search_named("isolate"), wish.inclusion};
-}
+Wish second_wish(const Wish& wish) { return {search_named("isolate"), wish.inclusion}; }
 
 Method choose_method(const Program& f, const Wish& wish, const KernelOptions& kernel) {
   Method method{wish.search, wish.inclusion, !wish.search && kernel.precision == f32, {}};

@@ -22,8 +22,8 @@ struct Method {
   std::string reason;  // of what was chosen here, for the reader; empty where all was asked for
 };
 
-// What is asked for in the second look, in double, where this was asked for in floats: isolate instead of bernstein,
-// as a ray is seldom undecided for both.
+// What is asked for in the second look, in double, where this was asked for in floats, and no search by its name:
+// isolate, as a ray is seldom undecided for both it and bernstein.
 Wish second_wish(const Wish& wish);
 
 // For `f` (f64, simplified) in a kernel like this.

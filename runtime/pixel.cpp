@@ -4,9 +4,6 @@
 
 #include "ir/infinity.h"
 #include "ir/loop.h"
-#include "passes/differentiate.h"
-#include "passes/inline.h"
-#include "passes/precision.h"
 #include "passes/surface_passes.h"
 #include "runtime/beam.h"
 #include "runtime/camera.h"
@@ -159,8 +156,7 @@ class Pixel {
   std::optional<Sight> look_at(const Program& f, std::size_t drawn) {
     const Method method = choose_method(f, options_.wish, options_.kernel);
     const auto whole = piece_for(f, drawn, *method.inclusion);
-    const auto slopes = gradient(f, diagnostics_);
-    if (!whole || !slopes) return std::nullopt;
+    if (!whole) return std::nullopt;
     const Piece& piece = *whole;
     const Segment segment = segment_of(piece.near, piece.far);
     const auto on_piece = along(f, segment, *method.inclusion);
@@ -171,11 +167,9 @@ class Pixel {
 
     const Refined root = refine(program_, *on_piece, found->bracket);
     const Expr s = root.s;
-    std::vector<Expr> place;
-    for (std::size_t i = 0; i < 3; ++i) place.push_back(segment.origin[i] + s * segment.direction[i]);
-    for (const Uniform& each : uniforms_) place.push_back(each.value);
-    const auto values = inline_program(in_precision(*slopes, type_), place);
-    Vector normal = to(f32, normalized({values[1], values[2], values[3]}));
+    const auto unit = normal_at(f, segment, uniforms_, s, diagnostics_);
+    if (!unit) return std::nullopt;
+    Vector normal = to(f32, *unit);
     const Truth regular = dot(normal, normal) > 0.5;
     for (std::size_t i = 0; i < 3; ++i) normal[i] = select(regular, normal[i], -ray_.direction[i]);
     const Expr verdict = to(f32, verdict_with(root, found->verdict));

@@ -1,6 +1,10 @@
 #include "runtime/search/segment.h"
 
 #include "ir/infinity.h"
+#include "passes/differentiate.h"
+#include "passes/inline.h"
+#include "passes/precision.h"
+#include "runtime/camera.h"
 
 namespace imp {
 namespace {
@@ -70,6 +74,18 @@ Segment segment_of_numbers(const std::array<Expr, 3>& o, const std::array<Expr, 
   }
   segment.exists = !(near >= far);  // NaN: nothing is known of it
   return segment;
+}
+
+std::optional<std::array<Expr, 3>> normal_at(const Program& f, const Segment& segment,
+                                             std::span<const Uniform> uniforms, Expr s,
+                                             Diagnostics& diagnostics) {
+  const auto slopes = gradient(f, diagnostics);
+  if (!slopes) return std::nullopt;
+  std::vector<Expr> place;
+  for (std::size_t i = 0; i < 3; ++i) place.push_back(segment.origin[i] + s * segment.direction[i]);
+  for (const Uniform& each : uniforms) place.push_back(each.value);
+  const auto values = inline_program(in_precision(*slopes, s.type()), place);
+  return normalized({values[1], values[2], values[3]});
 }
 
 }  // namespace imp

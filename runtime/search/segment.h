@@ -35,4 +35,9 @@ std::optional<RayFunction> ray_function(const Program& f, const Segment& segment
                                         std::span<const Uniform> uniforms, const Inclusion& inclusion,
                                         const std::optional<SpaceBounds>& space, Diagnostics& diagnostics);
 
+// The gradient of f there, at s, scaled to length 1 in the kernel's type; no numbers where it is 0 or f has none.
+std::optional<std::array<Expr, 3>> normal_at(const Program& f, const Segment& segment,
+                                             std::span<const Uniform> uniforms, Expr s,
+                                             Diagnostics& diagnostics);
+
 }  // namespace imp
