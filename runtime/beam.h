@@ -31,12 +31,11 @@ std::optional<Pipeline> beam_stages(const Model& model, const RenderOptions& opt
 // What the last of these stages tells of a surface for all rays of a cell of pixels. Depths are along the
 // camera's axis; a ray is at depth z where it has gone z times as far as to depth 1.
 struct Beam {
-  Expr near;  // no ray has a root before it
-  Expr far;   // nor behind it
-  Expr run;   // in [near, far]: f is monotone along each ray from near to here
-  Truth
-      crosses;  // f changes its sign between near and run: the first hit of each ray that has both in the domain
-  Expr sign;  // of f at near, if so
+  Expr near;      // no ray has a root before it
+  Expr far;       // nor behind it
+  Expr run;       // in [near, far]: f is monotone along each ray from near to here
+  Truth crosses;  // f changes its sign between them: the first hit of each ray that has both in the domain
+  Expr sign;      // of f at near, if so
 };
 
 // The inputs of a pixel's Program that hold it, for surface `index` of those drawn.
