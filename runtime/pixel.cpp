@@ -45,6 +45,7 @@ class Pixel {
     const CameraInputs camera = camera_inputs(program_);
     ray_ = is_orthographic(model_) ? orthographic_ray(camera, i, j) : perspective_ray(camera, i, j);
     clip_ = clip_to_domain();
+    if (beams_) pad_ = input("pad.place", f32, Rate::frame);
     for (const std::string& name : uniform_names(model_))
       uniforms_.push_back(uniform(input(uniform_input(name), f64, Rate::frame), type_));
 
@@ -93,7 +94,7 @@ class Pixel {
   // Its places with all that the rounding of any other segment of the same ray may make of them: what is proven here
   // holds there.
   Segment padded(Segment segment) {
-    const Expr pad = 2.0 * to(type_, input("pad.place", f32, Rate::frame));
+    const Expr pad = 2.0 * to(type_, pad_);
     for (std::size_t i = 0; i < 3; ++i) {
       const Interval& place = segment.origin_bounds[i];
       segment.origin_bounds[i] = interval(add_up(place.nlo, pad), add_up(place.hi, pad));
@@ -256,6 +257,7 @@ class Pixel {
   Program program_{.name = "pixel"};
   PixelRay ray_;
   Clip clip_;
+  Expr pad_;  // with beams: what the rounding of a place may be
   std::vector<Uniform> uniforms_;
 };
 
