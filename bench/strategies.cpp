@@ -5,7 +5,7 @@
 // best strategy behind them.
 #include <fmt/format.h>
 
-#include <optional>
+#include <array>
 
 #include "bench/clocks.h"
 #include "bench/peak.h"
@@ -89,8 +89,7 @@ void print_strategies_table() {
   fmt::print(
       "1024 x 1024, the processor time of one thread, medians of {} frames; bisection to epsilon 2^-11\n\n"
       "| surface | strategy | nearest, ms | outward, ms | outward / nearest | by hand, scaled, ms | nearest "
-      "/ by "
-      "hand | outward / by hand |\n| --- | --- |{}\n",
+      "/ by hand | outward / by hand |\n| --- | --- |{}\n",
       rounds, " ---: | ---: | ---: | ---: | ---: | ---: |");
   for (const Row& row : rows)
     for (std::size_t i = 0; i < std::size(ways); ++i)

@@ -19,8 +19,7 @@ struct CpuTarget {
   unsigned packet_registers = 1;  // that a number of a packet fills (docs/decisions/packets.md)
 
   // Rays a packet holds: that many registers of floats if the Program computes with floats in a phase (doubles
-  // beside them take twice as many), else of the widest numbers
-  // it computes with for each ray.
+  // beside them take twice as many), else of the widest numbers it computes with for each ray.
   unsigned lanes(const Program& program) const;
 };
 

@@ -12,7 +12,7 @@ namespace imp {
 namespace {
 
 // By `search` behind beams and without them. 70 and 50 are no multiples of a cell.
-std::size_t compare(const Model& model, const char* search) {
+std::size_t compare(const Model& model, const char* search, std::size_t more_undecided = 2) {
   RenderOptions options = test::sized(70, 50);
   options.depth = true;
   options.wish.search = search ? search_named(search) : nullptr;
@@ -25,8 +25,7 @@ std::size_t compare(const Model& model, const char* search) {
       EXPECT_NEAR(tiled.depth[i], rays.depth[i], 1e-3F) << "pixel " << i;
     }
   }
-  // Other ends of the segments decide other grazing rays.
-  EXPECT_LE(tiled.count(verdict_undecided), 1.1 * static_cast<double>(rays.count(verdict_undecided)) + 5)
+  EXPECT_LE(tiled.count(verdict_undecided), rays.count(verdict_undecided) + more_undecided)
       << test::verdicts(tiled) << test::verdicts(rays);
   return tiled.count(verdict_hit);
 }
@@ -123,10 +122,14 @@ TEST(Beams, lose_no_root_to_rounding) {
   }
 }
 
+// Without a second look. Bisection leaves grazing rays undecided, and other ends of the segments other ones: more here, a
+// quarter of them at 512 x 512.
 TEST(Beams, stand_before_any_strategy) {
   for (const Search& search : searches()) {
     SCOPED_TRACE(search.name);
-    EXPECT_GT(compare(test::model_of(test::entry_named("torus")), search.name.data()), 0U);
+    EXPECT_GT(compare(test::model_of(test::entry_named("torus")), search.name.data(),
+                      search.name == "stackless" ? 7 : 2),
+              0U);
   }
 }
 

@@ -55,7 +55,7 @@ TEST(Render, draws_a_ball) {
   const Folder folder;
   const CommandAnswer answer =
       test::imp({"render", folder.write("s.imp", ball), "--size", "16x16", "-o", folder / "s.exr",
-                 "--aov=depth,normal,steps,verdict", "--stats=json", "--tiles=off"});
+                 "--aov=depth,normal,steps,verdict", "--stats=json"});
   ASSERT_EQ(answer.exit, 0) << answer.err;
   const auto image = test::decode_image(folder / "s.exr");
   EXPECT_EQ(picture_of(image), ball_picture);
