@@ -9,7 +9,7 @@ namespace imp::prove {
 
 struct InclusionOptions {
   std::vector<std::string> only;        // ops; empty: all
-  std::uint64_t samples = 100'000'000;  // boxes a row
+  std::uint64_t samples = 100'000'000;  // boxes a form
   std::string done;                     // a folder with a file for every finished row; empty: none
 };
 

@@ -35,7 +35,7 @@ int main(int argc, char** argv) {
   imp::prove::InclusionOptions inclusions;
   CLI::App* enclosures = app.add_subcommand("inclusions", "every op in every form on random boxes");
   enclosures->add_option("--only", inclusions.only, "these ops")->delimiter(',');
-  enclosures->add_option("--samples", inclusions.samples, "boxes a row");
+  enclosures->add_option("--samples", inclusions.samples, "boxes a form");
   enclosures->add_option("--done", inclusions.done, "a folder that remembers finished rows");
 
   imp::prove::SearchOptions searches;
