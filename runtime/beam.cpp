@@ -378,7 +378,7 @@ std::optional<Pipeline> beam_stages(const Model& model, const RenderOptions& opt
   if (!space || options.kernel.backend == Backend::glsl) return Pipeline{};  // forms make a shader too long
   Stages stages(model, *space);
   for (const std::size_t index : drawn_surfaces(model, options))
-    if (!stages.add_target(simplified(model.surfaces[index].f), diagnostics)) return std::nullopt;
+    if (!stages.add_target(drawn_function(model, index), diagnostics)) return std::nullopt;
   return stages.build(diagnostics);
 }
 

@@ -4,6 +4,7 @@
 
 #include "ir/infinity.h"
 #include "ir/loop.h"
+#include "passes/specialize.h"
 #include "passes/surface_passes.h"
 #include "runtime/beam.h"
 #include "runtime/camera.h"
@@ -49,10 +50,17 @@ class Pixel {
     for (const std::string& name : uniform_names(model_))
       uniforms_.push_back(uniform(input(uniform_input(name), f64, Rate::frame), type_));
 
+    const auto box = space_bounds(model_);
+    if (box) space_ = SearchSpace{*box, options_.economize};
+    if (!box && options_.economize) {
+      diagnostics_.error("--economize needs a domain that does not depend on parameters or time");
+      return std::nullopt;
+    }
+
     std::optional<Sight> first;
     const auto drawn = drawn_surfaces(model_, options_);
     for (std::size_t k = 0; k < drawn.size(); ++k) {
-      const auto sight = look_at(simplified(model_.surfaces[drawn[k]].f), k);
+      const auto sight = look_at(drawn[k], k);
       if (!sight) return std::nullopt;
       first = first ? nearer(*first, *sight) : *sight;
     }
@@ -103,7 +111,7 @@ class Pixel {
   }
 
   std::optional<RayFunction> along(const Program& f, const Segment& segment, const Inclusion& inclusion) {
-    return ray_function(f, segment, uniforms_, inclusion, space_bounds(model_), diagnostics_);
+    return ray_function(f, segment, uniforms_, inclusion, space_, diagnostics_);
   }
 
   std::optional<Piece> piece_for(const Program& f, std::size_t drawn, const Inclusion& inclusion) {
@@ -154,7 +162,14 @@ class Pixel {
     return found;
   }
 
-  std::optional<Sight> look_at(const Program& f, std::size_t drawn) {
+  // Whether what is drawn, f over the domain, is f: beyond it may be another function.
+  Truth in_domain(const Segment& segment) const {
+    return !segment.exists || lies_in(segment, with_margin(space_->box));
+  }
+
+  std::optional<Sight> look_at(std::size_t surface, std::size_t drawn) {
+    const Program& everywhere = model_.surfaces[surface].f;
+    const Program here = over_domain(model_, everywhere), f = simplified(here);
     const Method method = choose_method(f, options_.wish, options_.kernel);
     const auto whole = piece_for(f, drawn, *method.inclusion);
     if (!whole) return std::nullopt;
@@ -162,9 +177,13 @@ class Pixel {
     const Segment segment = segment_of(piece.near, piece.far);
     const auto on_piece = along(f, segment, *method.inclusion);
     if (!on_piece) return std::nullopt;
-    const auto found = beams_ ? find_behind_beam(*on_piece, piece, *method.search)
-                              : method.search->build(program_, *on_piece, options_.limits, diagnostics_);
+    auto found = beams_ ? find_behind_beam(*on_piece, piece, *method.search)
+                        : method.search->build(program_, *on_piece, options_.limits, diagnostics_);
     if (!found) return std::nullopt;
+    Truth certain = on_piece->certain;
+    if (!(here == everywhere))
+      certain = certain && in_domain(segment_of(clip_.near, clip_.far)) && in_domain(segment);
+    found->verdict = select(certain, found->verdict, constant_like(found->verdict, verdict_undecided));
 
     const Refined root = refine(program_, *on_piece, found->bracket);
     const Expr s = root.s;
@@ -177,7 +196,7 @@ class Pixel {
     const auto distance = [&](Expr share) { return piece.near + to(f32, share) * (piece.far - piece.near); };
     const Expr nowhere = constant_like(verdict, infinity);
     const Expr begin =
-        select(found->something, distance(found->bracket.a),
+        select(found->something && certain, distance(found->bracket.a),
                select(equal(verdict, constant_like(verdict, verdict_miss)), nowhere, -nowhere));
     return Sight{verdict, to(f32, found->steps), found->something, distance(s), begin, normal};
   }
@@ -259,9 +278,21 @@ class Pixel {
   Clip clip_;
   Expr pad_;  // with beams: what the rounding of a place may be
   std::vector<Uniform> uniforms_;
+  std::optional<SearchSpace> space_;
 };
 
 }  // namespace
+
+Program over_domain(const Model& model, const Program& f) {
+  const auto box = space_bounds(model);
+  if (!box) return f;
+  Program result = specialize(f, ranges_in(*box, f));
+  return result == f ? f : result;  // numbered as it was
+}
+
+Program drawn_function(const Model& model, std::size_t surface) {
+  return simplified(over_domain(model, model.surfaces[surface].f));
+}
 
 std::vector<std::size_t> drawn_surfaces(const Model& model, const RenderOptions& options) {
   std::vector<std::size_t> drawn = options.surfaces;

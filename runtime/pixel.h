@@ -18,6 +18,12 @@ inline constexpr std::array background{1.0, 1.0, 1.0};  // the colour of a miss,
 std::optional<Program> pixel_program(const Model& model, const RenderOptions& options,
                                      Diagnostics& diagnostics, bool beams = false);
 
+// f as a picture sees it: what the domain decides is gone. f itself where the domain depends on parameters.
+Program over_domain(const Model& model, const Program& f);
+
+// That of a surface, simplified: what is searched, in beams and along rays.
+Program drawn_function(const Model& model, std::size_t surface);
+
 // Of model.surfaces those that are drawn, by index.
 std::vector<std::size_t> drawn_surfaces(const Model& model, const RenderOptions& options);
 

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <expected>
 
-#include "passes/surface_passes.h"
 #include "runtime/beam.h"
 #include "runtime/canvas.h"
 #include "runtime/pixel.h"
@@ -72,7 +71,7 @@ Renderer::Renderer(const Model& model, RenderOptions options, std::vector<Runnab
 std::vector<Method> Renderer::methods() const {
   std::vector<Method> result;
   for (const std::size_t index : drawn_surfaces(*model_, options_))
-    result.push_back(choose_method(simplified(model_->surfaces[index].f), options_.wish, options_.kernel));
+    result.push_back(choose_method(drawn_function(*model_, index), options_.wish, options_.kernel));
   return result;
 }
 

@@ -26,6 +26,7 @@ struct RenderOptions {
   std::vector<std::size_t> surfaces;  // indices into Model::surfaces; empty: all
   Wish wish;
   SearchLimits limits;
+  std::optional<double> economize;  // see SearchSpace
   Thin thin = Thin::draw;
   bool tiles = true;  // whether beams are cast before rays (runtime/beam.h)
   bool depth = false, normal = false, steps = false, verdict = false;  // further channels

@@ -1,12 +1,12 @@
 // The functions that a strategy is given, over a segment.
 #include "runtime/search/segment.h"
 
-#include <cmath>
 #include <memory>
 
 #include "ir/assert.h"
 #include "passes/along_ray.h"
 #include "passes/differentiate.h"
+#include "passes/economize.h"
 #include "passes/extend/interval.h"
 #include "passes/inline.h"
 #include "passes/polynomial/bernstein.h"
@@ -17,26 +17,12 @@
 namespace imp {
 namespace {
 
-// The ranges of the inputs of along_ray(f): s, o, d, uniforms. Both ends of the segment lie in
-// `space`, and rounding may carry them a little beyond it.
-std::vector<Range> ranges_along_ray(const SpaceBounds& space, std::size_t uniforms) {
-  std::vector<Range> result{{0, 1}};
-  for (const Range& axis : space) {
-    const double margin = 1e-3 * (std::abs(axis.lo) + std::abs(axis.hi) + axis.hi - axis.lo);
-    result.push_back({axis.lo - margin, axis.hi + margin});
-  }
-  for (const Range& axis : space) {
-    const double width = 1.01 * (axis.hi - axis.lo) + 1e-3 * (std::abs(axis.lo) + std::abs(axis.hi));
-    result.push_back({-width, width});
-  }
-  result.resize(result.size() + uniforms, everything);
-  return result;
-}
-
 // f and df/ds along rays, before they are placed in a kernel.
 struct AlongRay {
-  Program in_space;                  // f64, exact constants, in x, y, z
-  Program f, slope;                  // without poles, f64, exact constants: to be enclosed
+  Program in_space;  // f64, exact constants, in x, y, z
+  Program f, slope;  // without poles, f64, exact constants: to be enclosed
+  Program near_f;    // enclosed for f over pieces: within `error` of it, where the ray is in its space
+  double error = 0;
   std::optional<Program> poles;      // 0 where they are
   Program f_rounded, slope_rounded;  // in the kernel's type: to be evaluated
   Program f_in_double;
@@ -62,7 +48,16 @@ struct AlongRay {
     return *result;
   }
 
-  Interval enclose_f(const Interval& s) const { return broken_at_poles(enclose(f, s), s); }
+  // What near_f lacks is defined and continuous everywhere.
+  Interval enclose_f(const Interval& s) const {
+    Interval result = enclose(near_f, s);
+    if (error > 0) {
+      const Expr off = rounded_up(*result.hi.graph, result.hi.type(), error);
+      result.nlo = add_up(result.nlo, off), result.hi = add_up(result.hi, off);
+      result.facts = {};
+    }
+    return broken_at_poles(result, s);
+  }
 
   std::optional<RayDegree> degree(Diagnostics& diagnostics) const {
     constexpr std::size_t variables[] = {0, 1, 2};
@@ -121,6 +116,13 @@ struct AlongRay {
   }
 };
 
+Economized economized(const Program& f, const std::optional<SearchSpace>& space) {
+  if (!space || !space->economize) return {f, 0};
+  Economized result = economize(f, ranges_in(space->box, f), *space->economize);
+  if (result.error > 0) result.f = simplified(result.f);
+  return result;
+}
+
 std::optional<Program> slope_of(const Program& along, Diagnostics& diagnostics) {
   constexpr std::string_view s = "s";
   auto both = differentiate(along, std::span(&s, 1), diagnostics);
@@ -133,13 +135,16 @@ std::optional<Program> slope_of(const Program& along, Diagnostics& diagnostics) 
 
 std::optional<RayFunction> ray_function(const Program& f, const Segment& segment,
                                         std::span<const Uniform> uniforms, const Inclusion& inclusion,
-                                        const std::optional<SpaceBounds>& space, Diagnostics& diagnostics) {
+                                        const std::optional<SearchSpace>& space, Diagnostics& diagnostics) {
   const Expr like = segment.origin[0];
   const auto ray = std::make_shared<AlongRay>();
   ray->inclusion = &inclusion;
   ray->in_space = f;
   const Fraction parts = searched(f);
   ray->f = along_ray(parts.numerator);
+  const Economized near = economized(parts.numerator, space);
+  ray->near_f = along_ray(near.f);
+  ray->error = near.error;
   if (parts.poles) ray->poles = along_ray(*parts.poles);
   auto slope = slope_of(ray->f, diagnostics);
   if (!slope) return std::nullopt;
@@ -147,7 +152,7 @@ std::optional<RayFunction> ray_function(const Program& f, const Segment& segment
   ray->f_rounded = in_precision(ray->f, like.type());
   ray->slope_rounded = in_precision(ray->slope, like.type());
   ray->f_in_double = in_precision(ray->f, f64);
-  if (space) ray->domain = ranges_along_ray(*space, uniforms.size());
+  if (space) ray->domain = ranges_along_ray(space->box, f);
 
   for (const auto* bounds : {&segment.origin_bounds, &segment.direction_bounds})
     ray->bounds.insert(ray->bounds.end(), bounds->begin(), bounds->end());
@@ -164,6 +169,7 @@ std::optional<RayFunction> ray_function(const Program& f, const Segment& segment
   // Tried here once, so that the functions below cannot fail.
   const Interval start = point(zero(like));
   if (!ray->try_to_enclose(ray->f, start, diagnostics) ||
+      !ray->try_to_enclose(ray->near_f, start, diagnostics) ||
       !ray->try_to_enclose(ray->slope, start, diagnostics))
     return std::nullopt;
 
@@ -176,6 +182,8 @@ std::optional<RayFunction> ray_function(const Program& f, const Segment& segment
       .value_in_double = [ray](Expr s) { return ray->evaluate_in_double(ray->f_in_double, s); },
       .like = like,
       .exists = segment.exists,
+      .certain = near.error > 0 ? !segment.exists || lies_in(segment, with_margin(space->box))
+                                : truth_of(*like.graph, true),
       .degree = [ray](Diagnostics& d) { return ray->degree(d); },
       .coefficients = [ray](const Interval& s, Diagnostics& d) { return ray->coefficients(s, d); },
   };

@@ -7,6 +7,7 @@
 #include "ir/diagnostics.h"
 #include "passes/extend/inclusion.h"
 #include "runtime/search/search.h"
+#include "runtime/search/space.h"
 
 namespace imp {
 
@@ -26,14 +27,11 @@ Segment segment_of_ray(const std::array<Expr, 3>& o, const std::array<Expr, 3>& 
 // The segment of a ray in the kernel's own type; it is what its numbers say.
 Segment segment_of_numbers(const std::array<Expr, 3>& o, const std::array<Expr, 3>& d, Expr near, Expr far);
 
-// A box that the segments will not leave, as far as it is known before anything runs.
-using SpaceBounds = std::array<Range, 3>;
-
 // f (inputs x, y, z, then uniforms; f64) along the segment. Errors where f has no derivative or no
 // rule in the inclusion. The functions build into the segment's graph and share sub-expressions.
 std::optional<RayFunction> ray_function(const Program& f, const Segment& segment,
                                         std::span<const Uniform> uniforms, const Inclusion& inclusion,
-                                        const std::optional<SpaceBounds>& space, Diagnostics& diagnostics);
+                                        const std::optional<SearchSpace>& space, Diagnostics& diagnostics);
 
 // The gradient of f there, at s, scaled to length 1 in the kernel's type; no numbers where it is 0 or f has none.
 std::optional<std::array<Expr, 3>> normal_at(const Program& f, const Segment& segment,

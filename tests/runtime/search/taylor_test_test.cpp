@@ -28,7 +28,8 @@ class Tested {
                         .slope = [=](Expr s) { return 2.0 * (s - p) + 4.0 * k * (s - p) * square(s - p); },
                         .value_in_double = {},
                         .like = a,
-                        .exists = a < b};
+                        .exists = a < b,
+                        .certain = truth_of(program.graph, true)};
     output(program, "maybe", taylor_test(f, a, b));
     kernel_ = interpret(run_passes(std::move(program), kernel_passes()));
   }
