@@ -89,6 +89,7 @@ struct Inspect {
   std::string file, program = "f";
   const Emission* emission = nullptr;
   bool passes = false;
+  std::optional<double> economize;  // of pixels
   std::string_view print_after;
 
   void settle() const {
@@ -118,11 +119,12 @@ struct Inspect {
   std::string methods_text(const Model& model) const {
     if (program != "cast" && program != "pixel") return "";
     std::string text = "\n";
-    for (const Surface& surface : model.surfaces) {
+    for (std::size_t i = 0; i < model.surfaces.size(); ++i) {
+      const Surface& surface = model.surfaces[i];
       if (!options.surface.empty() && surface.name != options.surface) continue;
       const std::string of = model.surfaces.size() == 1 ? "" : surface.name + ": ";
-      text += fmt::format("# {}{}\n", of,
-                          to_text(choose_method(simplified(surface.f), options.wish, options.kernel)));
+      const Program f = program == "pixel" ? drawn_function(model, i) : simplified(surface.f);
+      text += fmt::format("# {}{}\n", of, to_text(choose_method(f, options.wish, options.kernel)));
     }
     return text;
   }
@@ -134,6 +136,7 @@ struct Inspect {
     picture.wish = options.wish;
     picture.limits = options.limits;
     picture.kernel = options.kernel;
+    picture.economize = economize;
     return pixel_program(model, picture, diagnostics);
   }
 
@@ -143,7 +146,7 @@ struct Inspect {
       timings.entries.push_back({stage, watch.milliseconds()});
     };
     const Stopwatch parsing;
-    auto model = read_model(file, diagnostics);
+    const auto model = read_model(file, diagnostics);
     if (!model) return false;
     time("parse", parsing);
     if (!uniform_values(*model, options.overrides, options.time, diagnostics)) return false;
@@ -154,10 +157,12 @@ struct Inspect {
         .times = {}, .text = passes || !print_after.empty() ? &between : nullptr, .print_after = print_after};
     const bool all = passes && print_after.empty();
     const Stopwatch building;
-    for (Surface& surface : model->surfaces) {
+    for (const Surface& surface : model->surfaces) {
       if (!options.surface.empty() && surface.name != options.surface) continue;
       if (all) between << "== as written\n" << to_text(surface.f);
-      surface.f = simplified(surface.f, &trace);
+      const Program f = program == "pixel" ? over_domain(*model, surface.f) : surface.f;
+      if (all && !(f == surface.f)) between << "== specialize\n" << to_text(f);
+      simplified(f, &trace);
     }
     auto built = build(*model, diagnostics);
     if (!built) return false;
@@ -198,6 +203,7 @@ Action add_inspect(CLI::App& verb) {
              [=](std::size_t i) { inspect->print_after = pass_words[i].name; });
   add_choice(verb, "--emit", emission_words, "as LLVM IR, as assembly for --target, …",
              [=](std::size_t i) { inspect->emission = &emissions[i]; });
+  add_economize(verb, inspect->economize);
   add_options(verb, inspect->options);
   verb.final_callback([=] { inspect->settle(); });
   return [inspect] {

@@ -145,6 +145,16 @@ void add_size(CLI::App& verb, RenderOptions& picture) {
   });
 }
 
+void add_economize(CLI::App& verb, std::optional<double>& tolerance) {
+  add_value(verb, "--economize", "TOLERANCE",
+            "enclose polynomials that are shorter than those of f, and this close to it, as 1e-6",
+            [&tolerance](const std::string& text) {
+              tolerance = read_real("--economize", text);
+              if (!(*tolerance > 0 && *tolerance < INFINITY))
+                refuse("--economize", fmt::format("'{}' is not above 0 and finite", text));
+            });
+}
+
 void add_options(CLI::App& verb, Options& options) {
   static const std::vector<CpuTarget> targets = cpu_targets();
   static const std::vector<Choice> target_words = target_choices(targets);

@@ -45,6 +45,9 @@ CLI::Option* add_choice(CLI::App& verb, const std::string& name, std::span<const
 // --size, for the picture's width and height.
 void add_size(CLI::App& verb, RenderOptions& picture);
 
+// --economize, of verbs that show pictures.
+void add_economize(CLI::App& verb, std::optional<double>& tolerance);
+
 // What every verb that evaluates takes.
 struct Options {
   KernelOptions kernel;

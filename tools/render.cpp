@@ -194,6 +194,7 @@ Action add_render(CLI::App& verb) {
              [=](std::size_t i) { render->tiles = i == 0; });
   add_value(verb, "--aov", "LIST", "further channels of an .exr, of depth,normal,steps,verdict",
             [=](const std::string& words) { render->take_channels(words); });
+  add_economize(verb, picture.economize);
   add_value(verb, "--threads", "N", "how many work at once (one a core)", [=](const std::string& text) {
     render->threads = static_cast<unsigned>(read_count("--threads", text, 1, 1024));
   });

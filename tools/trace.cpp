@@ -183,6 +183,7 @@ Action add_trace(CLI::App& verb) {
             [=](const std::string& text) { trace->pixel = read_pixel(text); })
       ->required();
   add_size(verb, trace->picture);
+  add_economize(verb, trace->picture.economize);
   add_options(verb, trace->options);
   verb.final_callback([=] { trace->settle(); });
   return [trace] {

@@ -84,6 +84,25 @@ TEST(Inspect, shows_what_every_pass_changed) {
             1 + surface_passes().size() + kernel_passes().size());
 }
 
+// What the domain decides, of pictures alone.
+TEST(Inspect, shows_what_the_domain_makes_of_f) {
+  const std::string sheet = "sqrt(abs(z + 5)) = max(x, -4)\n";
+  const std::string out = inspect({"--passes", "--program=pixel"}, sheet).out;
+  const std::size_t begin = out.find("\n== specialize\n"), end = out.find("\n== ", begin + 1);
+  ASSERT_NE(begin, std::string::npos);
+  EXPECT_EQ(out.substr(begin, end - begin).find("max"), std::string::npos);
+  for (const std::string program : {"f", "interval", "cast"})
+    EXPECT_EQ(inspect({"--passes", "--program", program}, sheet).out.find("specialize"), std::string::npos);
+}
+
+TEST(Inspect, shows_what_economisation_saves) {
+  const std::string f = "x + x^3/1e3 + x^12/1e12 = y\n";
+  const std::vector<std::string> words{"--program=pixel", "--search=stackless"};
+  const std::string before = inspect(words, f).out;
+  EXPECT_NE(inspect({words[0], words[1], "--economize=1e-4"}, f).out, before);
+  EXPECT_EQ(inspect({words[0], words[1], "--economize=1e-30"}, f).out, before);
+}
+
 TEST(Inspect, shows_a_program_after_one_pass) {
   for (const Pass& pass : kernel_passes()) {
     const std::string out = inspect({"--print-after", std::string(pass.name)}).out;

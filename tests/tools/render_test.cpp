@@ -51,6 +51,20 @@ std::string picture_of(const test::DecodedImage& image) {
   return text;
 }
 
+TEST(Render, economises_over_a_known_domain) {
+  const Folder folder;
+  const std::string f = "param p = 2\nx + x^12/1e12 = y\ndomain box((-p, -2, -2), (2, 2, 2))\n";
+  const std::string option = "--economize=1e-6";
+  EXPECT_EQ(test::imp({"render", "-", "-o", folder / "s.png", "--size=8x8", option}, ball).exit, 0);
+  const CommandAnswer unknown = test::imp({"render", "-", "-o", folder / "t.png", "--size=8x8", option}, f);
+  EXPECT_EQ(unknown.exit, 1);
+  EXPECT_NE(unknown.err.find("--economize needs a domain that does not depend on parameters or time"),
+            std::string::npos);
+  for (const std::string wrong : {"0", "-1", "inf", "nan"})
+    test::expect_usage_error(test::imp({"render", "-", "--economize=" + wrong}, ball),
+                             "--economize: '" + wrong + "' is not above 0 and finite");
+}
+
 TEST(Render, draws_a_ball) {
   const Folder folder;
   const CommandAnswer answer =
