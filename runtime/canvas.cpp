@@ -48,7 +48,13 @@ Canvas::Canvas(Picture& picture, const std::vector<Output>& outputs)
   for (const Output& output : outputs) {
     const Destination& to = all.at(output.name);
     to.channel->resize(to.stride * picture.width * picture.height);
-    channels_.push_back({to.channel->data() + to.offset, to.stride, to.background});
+    float* const data = to.channel->data();
+    channels_.push_back({data + to.offset, to.stride});
+    auto plane = std::ranges::find(planes_, data, &Plane::data);
+    if (plane == planes_.end())
+      plane = planes_.insert(plane, {data, to.stride, std::vector<float>(to.stride * picture.width)});
+    for (std::size_t i = to.offset; i < plane->background.size(); i += to.stride)
+      plane->background[i] = to.background;
   }
 }
 
@@ -74,11 +80,10 @@ void Canvas::draw(const PixelRows& pixels) {
 }
 
 void Canvas::clear(std::size_t x, std::size_t y, std::size_t width, std::size_t height) {
-  for (const Channel& channel : channels_)
-    for (std::size_t row = y; row < y + height; ++row) {
-      float* pixel = channel.data + channel.stride * (row * picture_.width + x);
-      for (std::size_t i = 0; i < width; ++i) pixel[channel.stride * i] = channel.background;
-    }
+  for (const Plane& plane : planes_)
+    for (std::size_t row = y; row < y + height; ++row)
+      std::copy_n(plane.background.begin(), plane.stride * width,
+                  plane.data + plane.stride * (row * picture_.width + x));
 }
 
 Undecided Canvas::undecided() const {

@@ -35,12 +35,18 @@ class Canvas {
   struct Channel {
     float* data;
     std::size_t stride;  // between pixels
-    float background;    // where nothing is
+  };
+  // Channels that lie together, pixel by pixel.
+  struct Plane {
+    float* data;
+    std::size_t stride;
+    std::vector<float> background;  // a row of it
   };
 
   const Picture& picture_;
   std::vector<Channel> channels_;  // an output each
-  std::size_t verdict_, steps_;    // the places of these two; past the end where there is none
+  std::vector<Plane> planes_;
+  std::size_t verdict_, steps_;  // the places of these two; past the end where there is none
   std::atomic<bool> any_undecided_ = false;
 };
 

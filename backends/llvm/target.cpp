@@ -78,16 +78,13 @@ unsigned CpuTarget::lanes(const Program& program) const {
 
 std::vector<CpuTarget> cpu_targets() {
   const Host host;
-  std::vector<CpuTarget> targets{
+  return {
       {"host", llvm::sys::getHostCPUName().str(), host.features(), host.register_bits(),
        host.has(sse41_needs)},
       {"avx512", "x86-64-v4", "", 512, host.has(avx512_needs)},
       {"avx2", "x86-64-v3", "", 256, host.has(avx2_needs)},
       {"sse4.1", "x86-64", "+sse4.1", 128, host.has(sse41_needs)},
   };
-  // Two hide each other's latency, where there are registers for it: 32 with AVX-512, else 16.
-  for (CpuTarget& target : targets) target.packet_registers = target.register_bits == 512 ? 2 : 1;
-  return targets;
 }
 
 std::optional<CpuTarget> cpu_target(std::string_view name) {
