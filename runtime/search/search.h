@@ -112,6 +112,8 @@ std::optional<Found> isolate(Program& program, const RayFunction& f, const Searc
                              Diagnostics& diagnostics);
 std::optional<Found> segment_tracing(Program& program, const RayFunction& f, const SearchLimits& limits,
                                      Diagnostics& diagnostics);
+std::optional<Found> newton(Program& program, const RayFunction& f, const SearchLimits& limits,
+                            Diagnostics& diagnostics);
 std::optional<Found> polynomial(Program& program, const RayFunction& f, const SearchLimits& limits,
                                 Diagnostics& diagnostics);
 std::optional<Found> bernstein(Program& program, const RayFunction& f, const SearchLimits& limits,

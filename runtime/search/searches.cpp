@@ -17,6 +17,8 @@ std::span<const Search> searches() {
       Search{"polynomial", "between the critical points, by those of the derivatives (Yuksel 2022)",
              polynomial, true},
       Search{"segment", "steps by the slopes of the piece ahead (Galin et al. 2020)", segment_tracing},
+      Search{"newton", "interval Newton with division through zero as two half-lines (Caprani et al. 2000)",
+             newton},
   };
   return list;
 }
