@@ -30,7 +30,7 @@ const StiffRay stiff_rays[] = {
 
 TEST(Refine, certified_roots_lie_where_they_are_said_to) {
   int hits = 0;
-  for (const char* name : {"stackless", "isolate", "segment"})
+  for (const char* name : {"stackless", "isolate", "segment", "newton"})
     for (const auto& [f, ray, t] : stiff_rays) {
       const Caster cast(model_of(f), {}, {}, {}, *inclusion_named("auto"), *search_named(name));
       const Answer answer = cast(std::vector{ray})[0];
@@ -47,7 +47,7 @@ TEST(Refine, two_roots_that_nearly_touch) {
                 {-0.2845901874144085, -0.659121415454014, -0.6958386244293698},
                 -0.46709945275208054,
                 0.9971034045100494};
-  for (const char* name : {"stackless", "isolate", "segment", "bernstein"}) {
+  for (const char* name : {"stackless", "isolate", "segment", "newton", "bernstein"}) {
     const Caster cast(model_of("T(18, x) + T(18, y) + T(18, z) = 0"), {}, {}, {}, *inclusion_named("auto"),
                       *search_named(name));
     const Answer answer = cast(std::vector{ray})[0];
@@ -64,7 +64,7 @@ TEST(Refine, a_root_that_is_not_decided_hides_what_is_behind_it) {
       "camera from (0, 0, 1) to (0.1, 0.05, 0) fov 40\n");
   for (const bool tiles : {true, false})
     for (const Type precision : {f32, f64})
-      for (const char* name : {"auto", "isolate", "stackless", "segment", "bernstein"}) {
+      for (const char* name : {"auto", "isolate", "stackless", "segment", "newton", "bernstein"}) {
         RenderOptions options = sized(9, 9);
         options.tiles = tiles;
         options.kernel.precision = precision;

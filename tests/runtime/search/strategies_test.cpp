@@ -31,6 +31,7 @@ TEST(Strategies, refuse_what_they_are_not_for) {
   EXPECT_EQ(refusal(wave, "bernstein"), no_polynomial);
   EXPECT_EQ(refusal(wave, "polynomial"), no_polynomial);
   EXPECT_EQ(refusal(wave, "segment"), std::nullopt);
+  EXPECT_EQ(refusal(wave, "newton"), std::nullopt);
   EXPECT_EQ(refusal(wave, "stackless"), std::nullopt);
   EXPECT_EQ(refusal("x^12 + y", "polynomial"), std::nullopt);
   EXPECT_EQ(refusal("x^13 + y", "polynomial"),
@@ -54,6 +55,7 @@ TEST(Strategies, take_few_steps_to_an_ordinary_root) {
   EXPECT_LE(steps("bernstein"), 2);   // both roots; the left one
   EXPECT_LE(steps("polynomial"), 1);  // up to the middle
   EXPECT_LE(steps("segment"), 6);
+  EXPECT_LE(steps("newton"), 4);
   EXPECT_GE(steps("stackless"), 15);
 }
 
