@@ -1,4 +1,4 @@
-// Division through zero: the solutions x of n = d x, for n and d anywhere in two intervals (Hansen and Walster 2004, §4.5;
+// Division through zero: the solutions x of n = d x, for n and d anywhere in two intervals (Hansen and Walster 2004;
 // mulRevToPair of IEEE 1788).
 #pragma once
 

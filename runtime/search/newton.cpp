@@ -1,5 +1,5 @@
 // Interval Newton, with division through zero (Caprani, Hvidegaard, Mortensen and Schneider 2000; Moore 1966; Hansen and
-// Walster 2004, §9).
+// Walster 2004).
 //
 // A piece X that F does not exclude is looked at from its middle c. By the mean value theorem every root x in X has
 // f(c) = d (c - x) for a d in F'(X), so roots can only lie on two half-lines, and not between them:
@@ -26,6 +26,9 @@
 
 namespace imp {
 namespace {
+
+// More are seldom left, and a shader copies the table a step.
+constexpr std::uint32_t kept_pieces = 8;
 
 // What a step of Newton's method from c leaves of a piece [s, e].
 struct Rest {
@@ -61,7 +64,7 @@ std::optional<Found> newton(Program& program, const RayFunction& f, const Search
   Loop loop(program, "newton", limits.steps);
   const Expr s = loop.state("s", zero_);  // the piece is [s, e]
   const Expr e = loop.state("e", one_);
-  Pieces pieces(program, loop, f.like, depth_to(epsilon));
+  Pieces pieces(program, loop, f.like, kept_pieces);
   const Truth open = loop.state("open", no);        // in a run
   const Expr run = loop.state("run", zero_);        // where it began
   const Expr slope = loop.state("slope", zero_);    // the sign of df/ds on it; 0: not monotone

@@ -86,8 +86,8 @@ INSTANTIATE_TEST_SUITE_P(Strategies, Strategy_,
                                          Expected{"isolate", f64, 0.98, 3},
                                          Expected{"bernstein", f32, 0.95, 3},
                                          Expected{"polynomial", f32, 0.95, 3},
-                                         Expected{"segment", f32, 0.5, 3}, Expected{"newton", f32, 0.9},
-                                         Expected{"newton", f64, 0.98, 3}));
+                                         Expected{"segment", f32, 0.5, 3}, Expected{"newton", f32, 0.95, 3},
+                                         Expected{"newton", f64, 0.98, 6}));
 
 // Of the whole catalogue; no kernel is made for that.
 TEST(Search, bernstein_refuses_what_is_no_polynomial) {

@@ -1,17 +1,11 @@
 // Pieces of a ray that are still to be searched, nearest first: a stack of bounded depth.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 
 #include "ir/loop.h"
 
 namespace imp {
-
-// As many pieces as are left behind where one is halved, and its half, until it is no longer than epsilon.
-inline std::uint32_t depth_to(double epsilon) {
-  return static_cast<std::uint32_t>(std::ceil(-std::log2(epsilon))) + 1;
-}
 
 // Part of the state of a phase. Pieces are disjoint and ascend from the top. Where the stack is full a piece that is
 // pushed becomes one with the piece on top, and with what lies between them: nothing is lost but knowledge.

@@ -55,11 +55,5 @@ TEST(Pieces, last_in_first_out_and_merged_where_there_is_no_room) {
   }
 }
 
-TEST(Pieces, there_is_room_for_every_level) {
-  EXPECT_GE(depth_to(0x1p-22), 22u);
-  EXPECT_GE(depth_to(1e-3), 10u);
-  EXPECT_LE(depth_to(0x1p-30), 32u);
-}
-
 }  // namespace
 }  // namespace imp::test
