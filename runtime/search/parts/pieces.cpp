@@ -13,7 +13,7 @@ Expr table_of_places(Program& program, Expr like, std::uint32_t capacity) {
 Pieces::Pieces(Program& program, Loop& loop, Expr like, std::uint32_t capacity)
     : loop_(loop),
       capacity_(capacity),
-      depth_(loop.state("depth", zero(like))),
+      depth_(loop.state("kept", zero(like))),
       starts_(loop.state("starts", table_of_places(program, like, capacity))),
       ends_(loop.state("ends", table_of_places(program, like, capacity))) {}
 
