@@ -23,7 +23,7 @@ namespace imp {
 std::optional<Found> isolate(Program& program, const RayFunction& f, const SearchLimits& limits,
                              Diagnostics& /*diagnostics*/) {
   const Expr zero_ = zero(f.like), one_ = one(f.like);
-  const Truth no = truth_of(program.graph, false), yes = truth_of(program.graph, true);
+  const Truth no = truth_of(program.graph, false);
   const double epsilon = epsilon_of(limits, f.like.type());
 
   Loop loop(program, "isolate", limits.steps);
@@ -32,12 +32,8 @@ std::optional<Found> isolate(Program& program, const RayFunction& f, const Searc
   const Expr k = loop.state("k", zero_);            // s = k h
   const Truth probing = loop.state("probing", no);  // this step is about the point s alone
   const Truth probed = loop.state("probed", no);    // and has been
-  const Truth open = loop.state("open", no);        // in a run
-  const Expr run = loop.state("run", zero_);        // where it began
-  const Expr slope = loop.state("slope", zero_);    // the sign of df/ds on it; 0: not monotone
-  const Expr before = loop.state("before", zero_);  // the sign of f before it, or at s; 0: not known
-  const Expr after = loop.state("after", zero_);    // and behind it
-  const Truth smooth = loop.state("smooth", yes);   // f is continuous on it
+  const RunStates states = run_states(program, loop, f.like);
+  const auto [open, run, slope, before, after, smooth] = states;
   const Expr steps = loop.state("steps", zero_);
 
   const Expr end = s + h;
@@ -95,16 +91,8 @@ std::optional<Found> isolate(Program& program, const RayFunction& f, const Searc
   const Truth too_long = doubtful && end - run_start > longest_run(epsilon);
   loop.again_while(!ends_search && !too_long && (!at_end || probes_end));
 
-  const Truth found = loop.result(open);
-  return answer(f,
-                {.found = found,
-                 .a = loop.result(run),
-                 .b = loop.result(s),
-                 .before = loop.result(before),
-                 .after = loop.result(after),
-                 .smooth = loop.result(smooth),
-                 .single = abs(loop.result(slope)) > 0},
-                !found && loop.result(s) >= 1, loop.result(steps));
+  const Run last = run_after(loop, states, s);
+  return answer(f, last, !last.found && last.b >= 1, loop.result(steps));
 }
 
 }  // namespace imp

@@ -14,8 +14,8 @@
 //    and it is there    if f(c) has another sign than f at the start, or all solutions lie in the inside of X;
 //    and it is not      if f goes away from 0 at the start.
 //
-// Pieces as short as epsilon on which neither is known form a run, as in isolate.cpp, which is closed by the next proven
-// sign; while a run is open gaps are looked at like pieces. The mean value theorem asks for f and f' continuous on X;
+// Pieces on which neither is known, and which are as short as epsilon or monotone with f(c) about 0, form a run, as in
+// isolate.cpp. The next proven sign closes it; while a run is open gaps are looked at like pieces. The mean value theorem asks for f and f' continuous on X;
 // elsewhere pieces are halved. Undecided where f touches zero.
 #include "ir/loop.h"
 #include "passes/extend/half_lines.h"
@@ -36,6 +36,8 @@ struct Rest {
   Expr left_end, right_start;  // f is not 0 there, and between, but where they are c
   Truth starts_in, ends_in;    // all solutions, in X or not, lie right of s; left of e
 };
+// If f rises and all solutions lie right of s, f(s) < 0: from f(s) >= 0 and f(c) = f(s) + d (c - s) it would follow that
+// c - f(c)/d <= s, a solution. So for falling f, and for e.
 
 // A place between c and `place`, near that; f is not 0 between, nor there.
 Expr in_gap(Expr place, Expr c) {
@@ -58,19 +60,14 @@ Rest newton_step(Expr s, Expr e, Expr c, const Interval& at_c, const Interval& s
 std::optional<Found> newton(Program& program, const RayFunction& f, const SearchLimits& limits,
                             Diagnostics& /*diagnostics*/) {
   const Expr zero_ = zero(f.like), one_ = one(f.like);
-  const Truth no = truth_of(program.graph, false), yes = truth_of(program.graph, true);
   const double epsilon = epsilon_of(limits, f.like.type());
 
   Loop loop(program, "newton", limits.steps);
   const Expr s = loop.state("s", zero_);  // the piece is [s, e]
   const Expr e = loop.state("e", one_);
   Pieces pieces(program, loop, f.like, kept_pieces);
-  const Truth open = loop.state("open", no);        // in a run
-  const Expr run = loop.state("run", zero_);        // where it began
-  const Expr slope = loop.state("slope", zero_);    // the sign of df/ds on it; 0: not monotone
-  const Expr before = loop.state("before", zero_);  // the sign of f before it, or at s; 0: not known
-  const Expr after = loop.state("after", zero_);    // and behind it
-  const Truth smooth = loop.state("smooth", yes);   // f is continuous on it
+  const RunStates states = run_states(program, loop, f.like);
+  const auto [open, run, slope, before, after, smooth] = states;
   const Expr steps = loop.state("steps", zero_);
 
   const Interval piece = interval(-s, e, {.nonnegative = true, .bounded = true});
@@ -139,16 +136,8 @@ std::optional<Found> newton(Program& program, const RayFunction& f, const Search
   const Truth too_long = joins && equal(direction_of_run, zero_) && e - run_start > longest_run(epsilon);
   loop.again_while(!ends_search && !too_long && !at_end);
 
-  const Truth found = loop.result(open);
-  return answer(f,
-                {.found = found,
-                 .a = loop.result(run),
-                 .b = loop.result(s),
-                 .before = loop.result(before),
-                 .after = loop.result(after),
-                 .smooth = loop.result(smooth),
-                 .single = abs(loop.result(slope)) > 0},
-                !found && loop.result(s) >= 1, loop.result(steps));
+  const Run last = run_after(loop, states, s);
+  return answer(f, last, !last.found && last.b >= 1, loop.result(steps));
 }
 
 }  // namespace imp

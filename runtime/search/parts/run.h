@@ -1,6 +1,7 @@
 // A run: neighbouring pieces of a ray that are not excluded, between excluded ones, and what it proves.
 #pragma once
 
+#include "ir/loop.h"
 #include "runtime/search/search.h"
 
 namespace imp {
@@ -12,6 +13,19 @@ struct Run {
   Truth smooth;        // f is proven defined and continuous on it
   Truth single;        // f is proven to have one root in it at most
 };
+
+// A run as states of a phase, none at first, for searches that know monotone pieces.
+struct RunStates {
+  Truth open;          // in a run
+  Expr start;          // where it began
+  Expr slope;          // the sign of df/ds on it; 0: not monotone
+  Expr before, after;  // the signs of f before it, or where the search is, and behind it; 0: not known
+  Truth smooth;        // f is continuous on it
+};
+RunStates run_states(Program& program, Loop& loop, Expr like);
+
+// What is left of them after the phase, for a run that ends at `end`.
+Run run_after(const Loop& loop, const RunStates& states, Expr end);
 
 // Whether df/ds is proven to be no 0 on [a, b], so that f has one root there at most.
 Truth monotone(const RayFunction& f, Expr a, Expr b);
