@@ -29,7 +29,16 @@ Expr sum_of_product_up(Expr a, Expr b, Expr c) {
 // What limits grow by in a rule, all roundings included.
 double grown(double limit) { return 1.001 * limit + 1e-20; }
 
-Expr deviation(const Affine& a) {  // Σ|xi|
+// sum + factor d for a factor >= 0.
+Ends plus_multiple(const Ends& sum, Expr factor, const Ends& d) {
+  return {sum_of_product_up(factor, d.nlo, sum.nlo), sum_of_product_up(factor, d.hi, sum.hi)};
+}
+
+Ends plus(const Ends& a, const Ends& b) { return {add_up(a.nlo, b.nlo), add_up(a.hi, b.hi)}; }
+Ends turned(const Ends& a) { return {a.hi, a.nlo}; }
+bool is_symmetric(const Ends& a) { return a.nlo == a.hi; }
+
+Expr linear(const Affine& a) {  // Σ|xi|
   Expr sum = zero(a.c);
   for (const Expr x : a.x) sum = add_up(sum, abs(x));
   return sum;
@@ -47,7 +56,7 @@ std::size_t parts(const Affine& a) { return a.x.size() + 1; }
 void pay(Affine& a, std::size_t count) {
   a.spare -= static_cast<int>(count);
   if (a.spare >= 0) return;
-  a.e = add_up(a.e, constant_like(a.e, reserve(a.e.type())));
+  a.e = plus(a.e, both(constant_like(a.c, reserve(a.c.type()))));
   a.spare += flushes;
 }
 
@@ -55,8 +64,8 @@ void pay(Affine& a, std::size_t count) {
 // the largest number, not infinity: with e added, which is not 0, the sum makes an infinity of it, and so e.
 void charge(Affine& a, double roundings, Expr charged) {
   if (is_zero(charged)) return;
-  if (!is_bounded(a)) charged = add_up(charged, a.e);
-  a.e = sum_of_product_up(constant_like(a.e, roundings * eps(a.e.type())), charged, a.e);
+  if (!is_bounded(a)) charged = add_up(charged, a.e.hi);
+  a.e = plus_multiple(a.e, constant_like(charged, roundings * eps(charged.type())), both(charged));
 }
 
 // The one symbol on which both depend, where neither depends on another one.
@@ -72,12 +81,13 @@ std::optional<std::size_t> only_symbol(const Affine& a, const Affine& b) {
 
 // Each part of the result is one op on those of a and b: eps of what is computed.
 template <class Join>
-Affine joined(const Affine& a, const Affine& b, Join join) {
+Affine joined(const Affine& a, const Affine& b, const Ends& error_of_b, Join join) {
   Affine result{join(a.c, b.c),
                 {},
-                add_up(a.e, b.e),
+                plus(a.e, error_of_b),
                 grown(a.limit + b.limit),
-                std::min(a.spare, flushes) + std::min(b.spare, flushes)};
+                std::min(a.spare, flushes) + std::min(b.spare, flushes),
+                a.signed_errors};
   Expr charged = is_zero(a.c) || is_zero(b.c) ? zero(a.c) : abs(result.c);
   for (std::size_t i = 0; i < a.x.size(); ++i) {
     result.x.push_back(join(a.x[i], b.x[i]));
@@ -86,6 +96,26 @@ Affine joined(const Affine& a, const Affine& b, Join join) {
   charge(result, 1, charged);
   pay(result, parts(a));
   return result;
+}
+
+// sum + r1 r2 with ri = Li + Di, what depends on symbols and what does not (AF2). Of L1 L2 the product of the parts of
+// one symbol is p ui², which lies between 0 and p; those of two symbols have either sign, as have L1 D2 and L2 D1.
+// D1 D2 is largest where both are at upper or both at lower ends, and holds 0 as both do.
+Ends plus_deviations(Ends sum, const Affine& a, const Affine& b) {
+  const Expr none = zero(a.c), first = larger(a.e), second = larger(b.e);
+  Expr either = mul_up(linear(b), first);
+  for (std::size_t i = 0; i < a.x.size(); ++i) {
+    if (is_zero(a.x[i])) continue;
+    if (!is_zero(b.x[i]))
+      sum = plus(sum, {max(mul_up(-a.x[i], b.x[i]), none), max(mul_up(a.x[i], b.x[i]), none)});
+    Expr others = second;
+    for (std::size_t k = 0; k < b.x.size(); ++k)
+      if (k != i) others = add_up(others, abs(b.x[k]));
+    either = sum_of_product_up(abs(a.x[i]), others, either);
+  }
+  const Ends errors{max(mul_up(a.e.nlo, b.e.hi), mul_up(a.e.hi, b.e.nlo)),
+                    max(mul_up(a.e.nlo, b.e.nlo), mul_up(a.e.hi, b.e.hi))};
+  return plus(plus(sum, both(either)), errors);
 }
 
 }  // namespace
@@ -99,11 +129,15 @@ bool is_power_of_two(double value) {
 double safe(Type type) { return type == f32 ? 1e30 : 1e300; }
 bool is_bounded(const Affine& a) { return a.limit < safe(a.c.type()); }
 
-Affine constant(Expr like, std::size_t symbols, double value, double error) {
-  Affine result{constant_like(like, value), std::vector(symbols, zero(like)), zero(like),
-                grown(std::abs(value) + error), 0};
+Affine constant(Expr like, const Shape& shape, double value, double error) {
+  Affine result{constant_like(like, value),
+                std::vector(shape.symbols, zero(like)),
+                both(zero(like)),
+                grown(std::abs(value) + error),
+                0,
+                shape.signed_errors};
   if (error > 0) {
-    result.e = rounded_up(*like.graph, like.type(), error + reserve(like.type()));
+    result.e = both(rounded_up(*like.graph, like.type(), error + reserve(like.type())));
     result.spare = flushes - 1;
   }
   return result;
@@ -111,43 +145,56 @@ Affine constant(Expr like, std::size_t symbols, double value, double error) {
 
 // With x not below the distance from c to either end, u = (v - c)/x lies in [-1, 1] for every v in it, whatever
 // c is.
-Affine of_interval(const Interval& a, std::size_t symbols, std::optional<std::size_t> symbol, double limit) {
+Affine of_interval(const Interval& a, const Shape& shape, std::optional<std::size_t> symbol, double limit) {
   const Expr none = zero(a.hi), spare = constant_like(a.hi, reserve(a.hi.type()));
-  Affine result{a.hi, std::vector(symbols, none), spare, grown(limit), flushes - 1};
+  Affine result{a.hi,         std::vector(shape.symbols, none), both(spare),
+                grown(limit), flushes - 1,                      shape.signed_errors};
   if ((-a.hi).id == a.nlo.id) return result;  // a point
   result.c = 0.5 * (a.hi - a.nlo);
   const Expr distance = max(add_up(a.hi, -result.c), add_up(a.nlo, result.c));
   if (symbol)
     result.x[*symbol] = distance;
   else
-    result.e = add_up(distance, spare);
+    result.e = both(add_up(distance, spare));
   return result;
 }
 
-Expr radius(const Affine& a) { return add_up(deviation(a), a.e); }
-Expr magnitude(const Affine& a) { return add_up(size(a), a.e); }
+Expr larger(const Ends& e) { return is_symmetric(e) ? e.hi : max(e.nlo, e.hi); }
+
+Ends deviation(const Affine& a) { return plus(both(linear(a)), a.e); }
+Expr radius(const Affine& a) { return larger(deviation(a)); }
+Expr magnitude(const Affine& a) { return add_up(size(a), larger(a.e)); }
 Truth is_form(const Affine& a) {
   return is_bounded(a) ? truth_of(*a.c.graph, true) : magnitude(a) < infinity;
 }
 
 Ends ends(const Affine& a) {
-  const Expr r = radius(a);
-  return {add_up(r, -a.c), add_up(r, a.c)};
+  const Ends r = deviation(a);
+  return {add_up(r.nlo, -a.c), add_up(r.hi, a.c)};
+}
+
+// d holds 0, so that its ends only change places with the sign of the factor.
+Ends plus_product(const Ends& sum, Expr factor, const Ends& d) {
+  if (is_symmetric(d)) return plus_multiple(sum, abs(factor), d);
+  const Truth upright = factor >= 0;
+  return plus_multiple(sum, abs(factor),
+                       {imp::select(upright, d.nlo, d.hi), imp::select(upright, d.hi, d.nlo)});
 }
 
 Affine neg(const Affine& a) {
   Affine result = a;
   result.c = -a.c;
+  result.e = turned(a.e);
   for (Expr& x : result.x) x = is_zero(x) ? x : -x;
   return result;
 }
 
 Affine add(const Affine& a, const Affine& b) {
-  return joined(a, b, [](Expr p, Expr q) { return is_zero(p) ? q : is_zero(q) ? p : p + q; });
+  return joined(a, b, b.e, [](Expr p, Expr q) { return is_zero(p) ? q : is_zero(q) ? p : p + q; });
 }
 
 Affine sub(const Affine& a, const Affine& b) {
-  return joined(a, b, [](Expr p, Expr q) { return is_zero(q) ? p : is_zero(p) ? -q : p - q; });
+  return joined(a, b, turned(b.e), [](Expr p, Expr q) { return is_zero(q) ? p : is_zero(p) ? -q : p - q; });
 }
 
 // Eq. 15, last line. Where both depend on one and the same symbol only, the product of these parts is p u²,
@@ -156,69 +203,81 @@ Affine sub(const Affine& a, const Affine& b) {
 // Roundings: a part is a sum of at most two products, each rounded, and the sum: (2 eps + eps²) of the sum of
 // their magnitudes. p/2 counts three times: as an addend, for the sum, and because |p|/2 stands for the exact
 // one: 3/2 eps |p| in all. The magnitudes |c1 c2|, |c1 x2|, |c2 x1|, |p| are terms of M1 M2, where Mi is
-// the magnitude of an operand, so 2.5 eps M1 M2 pays; and where a term overflows, M1 M2 is infinite.
+// the magnitude of an operand, so 2.5 eps M1 M2 pays; and where a term overflows, M1 M2 is infinite. AF2 leaves c1 c2
+// where it is: less to pay for.
 Affine mul(const Affine& a, const Affine& b) {
   const auto diagonal = only_symbol(a, b);
   const Type type = a.c.type();
   const Expr all = fma_up(magnitude(a), magnitude(b), constant_like(a.c, reserve(type) / eps(type)));
   Affine result{product(a.c, b.c),
                 {},
-                mul_up(all, constant_like(all, 2.5 * eps(type))),
+                both(mul_up(all, constant_like(all, 2.5 * eps(type)))),
                 grown(a.limit * b.limit),
-                flushes - 3 * static_cast<int>(parts(a))};
+                flushes - 3 * static_cast<int>(parts(a)),
+                a.signed_errors};
   if (std::isnan(result.limit)) result.limit = infinity;
   for (std::size_t i = 0; i < a.x.size(); ++i)
     result.x.push_back(sum_of_product(a.c, b.x[i], product(b.c, a.x[i])));
-  if (diagonal) {
+  if (diagonal && !a.signed_errors) {
     const Expr p = product(a.x[*diagonal], b.x[*diagonal]), half = constant_like(p, 0.5);
     result.c = sum_of_product(a.c, b.c, half * p);
-    result.e = sum_of_product_up(half, abs(p), result.e);
-    result.e = sum_of_product_up(magnitude(a), b.e, result.e);
-    result.e = sum_of_product_up(size(b), a.e, result.e);
+    result.e = plus_multiple(result.e, half, both(abs(p)));
+    result.e = plus_multiple(result.e, magnitude(a), b.e);
+    result.e = plus_multiple(result.e, size(b), a.e);
   } else {
-    result.e = sum_of_product_up(radius(a), radius(b), result.e);
-    result.e = sum_of_product_up(abs(a.c), b.e, result.e);
-    result.e = sum_of_product_up(abs(b.c), a.e, result.e);
+    result.e = a.signed_errors ? plus_deviations(result.e, a, b)
+                               : plus_multiple(result.e, radius(a), both(radius(b)));
+    result.e = plus_product(result.e, a.c, b.e);
+    result.e = plus_product(result.e, b.c, a.e);
   }
   return result;
 }
 
-// With v = c + r, |r| <= R: v² = c² + 2 c r + r², and r² lies within h of any h >= R²/2.
+// With v = c + r, |r| <= R: v² = c² + 2 c r + r², and r² lies within h of any h >= R²/2; in AF2 it is an error that is
+// not negative.
 //
-// Roundings: c² + h (2 eps + eps²) c² + eps h; each 2 c x eps; so 2.5 eps M² pays.
+// Roundings: c² + h (2 eps + eps²) c² + eps h; each 2 c x eps; so 2.5 eps M² pays. In AF2 c² has one.
 Affine square(const Affine& a) {
   const Type type = a.c.type();
   const Expr r = radius(a), m = magnitude(a);
-  const Expr h = mul_up(constant_like(r, 0.5), mul_up(r, r)), twice = 2.0 * a.c;
+  const Expr rr = mul_up(r, r), h = mul_up(constant_like(r, 0.5), rr), twice = 2.0 * a.c;
   const Expr all = fma_up(m, m, constant_like(m, reserve(type) / eps(type)));
-  Affine result{sum_of_product(a.c, a.c, h),
+  const Expr shift = a.signed_errors ? zero(h) : h;
+  const Ends rest = a.signed_errors ? Ends{shift, rr} : both(h);
+  Affine result{sum_of_product(a.c, a.c, shift),
                 {},
-                fma_up(all, constant_like(all, 2.5 * eps(type)), h),
+                plus_multiple(rest, all, both(constant_like(all, 2.5 * eps(type)))),
                 grown(a.limit * a.limit),
-                flushes - 3 * static_cast<int>(parts(a))};
+                flushes - 3 * static_cast<int>(parts(a)),
+                a.signed_errors};
   for (const Expr x : a.x) result.x.push_back(product(twice, x));
-  result.e = sum_of_product_up(abs(twice), a.e, result.e);
+  result.e = plus_product(result.e, twice, a.e);
   return result;
 }
 
-// v³ = c³ + 3 c² r + 3 c r² + r³, where 3 c r² lies within 3/2 |c| R² of 3/2 c R², and |r³| <= R³.
+// v³ = c³ + 3 c² r + 3 c r² + r³, where 3 c r² lies within 3/2 |c| R² of 3/2 c R², and |r³| <= R³. In AF2 3 c r² has
+// the sign of c, and of r³ each end is at most R² times that of r.
 //
 // Roundings: c (c² + 3/2 R²) four at most, 3 c² x three, 3 c² e one for c²; so 4 eps M³ pays. A flushed c² or
-// R² counts |c|, 3 |x| or 3 e times: hence the reserve inside the product too.
+// R² counts |c|, 3 |x| or 3 e times: hence the reserve inside the product too. In AF2 c³ has two and 3 c one, for
+// which 3 |c| R² is a term of M³.
 Affine cube(const Affine& a) {
   const Type type = a.c.type();
   const Expr r = radius(a), m = magnitude(a), spare = constant_like(m, reserve(type) / eps(type));
   const Expr all = fma_up(m, fma_up(m, m, spare), spare);
   const Expr cc = a.c * a.c, rr = mul_up(r, r), slope = 3.0 * cc;
-  Affine result{product(a.c, imp::fma(rr, constant_like(rr, 1.5), cc)),
+  Affine result{product(a.c, a.signed_errors ? cc : imp::fma(rr, constant_like(rr, 1.5), cc)),
                 {},
-                mul_up(all, constant_like(all, 4 * eps(type))),
+                both(mul_up(all, constant_like(all, 4 * eps(type)))),
                 grown(a.limit * a.limit * a.limit),
-                flushes - 8 * static_cast<int>(parts(a))};
+                flushes - 8 * static_cast<int>(parts(a)),
+                a.signed_errors};
   for (const Expr x : a.x) result.x.push_back(product(slope, x));
-  result.e = sum_of_product_up(slope, a.e, result.e);
-  result.e = fma_up(rr, mul_up(constant_like(r, 1.5), abs(a.c)), result.e);
-  result.e = fma_up(rr, r, result.e);
+  result.e = plus_multiple(result.e, slope, a.e);
+  result.e = a.signed_errors
+                 ? plus_product(result.e, 3.0 * a.c, {zero(rr), rr})
+                 : plus_multiple(result.e, rr, both(mul_up(constant_like(r, 1.5), abs(a.c))));
+  result.e = plus_multiple(result.e, rr, deviation(a));
   return result;
 }
 
@@ -229,31 +288,38 @@ Affine scale(const Affine& a, double value, bool exact) {
   const Type type = a.c.type();
   const Expr factor = constant_like(a.c, value);
   const double grow = std::abs(value) * (exact ? 1 : 1 + 3 * eps(type));
-  Affine result{product(a.c, factor), {}, zero(a.e), grown(grow * a.limit), a.spare};
+  Affine result{product(a.c, factor), {},           value < 0 ? turned(a.e) : a.e,
+                grown(grow * a.limit), a.spare,      a.signed_errors};
   if (std::isnan(result.limit)) result.limit = infinity;
   for (const Expr x : a.x) result.x.push_back(product(x, factor));
   const bool shrinks = !power_of_two || std::abs(value) < 1;
-  result.e = sum_of_product_up(rounded_up(*a.c.graph, type, grow), a.e,
-                               shrinks ? constant_like(a.e, reserve(type)) : zero(a.e));
+  result.e = plus_multiple(both(constant_like(a.c, shrinks ? reserve(type) : 0)),
+                           rounded_up(*a.c.graph, type, grow), result.e);
   if (shrinks) result.spare = flushes;
   if (!power_of_two || !is_bounded(result)) charge(result, exact ? 1 : 3.5, size(result));
   pay(result, 2 * parts(a));
   return result;
 }
 
+// The middle m of the rest goes to c; in AF2 its lower end, which is where a convex function touches the line.
+//
 // Roundings: (2 eps + eps²) of |factor c| + |m| and eps of each |factor x|. A factor below the smallest normal
-// number may be taken for 0: that costs as much for each of c and x.
+// number may be taken for 0: that costs as much for each of c and x. With the width of the rest among what is charged
+// neither end of e can be infinite or NaN alone.
 Affine line(const Affine& a, Expr factor, const Ends& rest, double limit) {
   const Type type = a.c.type();
-  const Expr m = 0.5 * (rest.hi - rest.nlo), steep = abs(factor);
-  const Expr around = max(add_up(rest.nlo, m), add_up(rest.hi, -m));
+  const Expr m = a.signed_errors ? -rest.nlo : 0.5 * (rest.hi - rest.nlo), steep = abs(factor);
+  const Ends around = a.signed_errors ? Ends{zero(m), add_up(rest.nlo, rest.hi)}
+                                      : both(max(add_up(rest.nlo, m), add_up(rest.hi, -m)));
   const Expr steeper = add_up(steep, constant_like(steep, smallest_normal(type) / eps(type)));
-  const Expr all = fma_up(steeper, size(a), add_up(abs(m), constant_like(m, reserve(type) / eps(type))));
+  const Expr moved = a.signed_errors ? add_up(abs(m), around.hi) : abs(m);
+  const Expr all = fma_up(steeper, size(a), add_up(moved, constant_like(m, reserve(type) / eps(type))));
   Affine result{sum_of_product(factor, a.c, m),
                 {},
-                fma_up(all, constant_like(all, 2.5 * eps(type)), sum_of_product_up(steep, a.e, around)),
+                plus_multiple(plus_product(around, factor, a.e), all, both(constant_like(all, 2.5 * eps(type)))),
                 limit,
-                flushes - 3 * static_cast<int>(parts(a))};
+                flushes - 3 * static_cast<int>(parts(a)),
+                a.signed_errors};
   for (const Expr x : a.x) result.x.push_back(product(factor, x));
   return result;
 }
@@ -261,9 +327,10 @@ Affine line(const Affine& a, Expr factor, const Ends& rest, double limit) {
 Affine select(Truth c, const Affine& a, const Affine& b) {
   Affine result{imp::select(c, a.c, b.c),
                 {},
-                imp::select(c, a.e, b.e),
+                {imp::select(c, a.e.nlo, b.e.nlo), imp::select(c, a.e.hi, b.e.hi)},
                 std::max(a.limit, b.limit),
-                std::min(a.spare, b.spare)};
+                std::min(a.spare, b.spare),
+                a.signed_errors};
   for (std::size_t i = 0; i < a.x.size(); ++i) result.x.push_back(imp::select(c, a.x[i], b.x[i]));
   return result;
 }

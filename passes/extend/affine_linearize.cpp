@@ -20,7 +20,8 @@ double size(const Range& range) { return std::max(std::abs(range.lo), std::abs(r
 
 // `a` where `c` holds; else no form.
 Affine where(Truth c, Affine a) {
-  a.e = select(c, a.e, constant_like(a.e, infinity));
+  const Expr none = constant_like(a.c, infinity);
+  a.e = {select(c, a.e.nlo, none), select(c, a.e.hi, none)};
   return a;
 }
 
@@ -102,17 +103,21 @@ Value AffineRules::log(const Value& a) const {
 //
 // Roundings, with R < 2: the two values are off by n eps each, as stated in elementary/bounds.h, and at most 1;
 // c' three roundings of at most 1, each x' one, of at most R in all: 6 eps. Beyond, and where the angle is too large,
-// it is [-1, 1].
+// it is [-1, 1]. In AF2 c' is sin(c), and -2 q sin(c) an error that turns with its sign.
 Affine AffineRules::wave(const Affine& angle, Op at, Op ahead, double sign) const {
   const Type type = angle.c.type();
   const double eps = affine::eps(type), off = *elementary::ulps(at, type) + *elementary::ulps(ahead, type);
   const Expr r = affine::radius(angle), rr = mul_up(r, r), q = mul_up(rr, constant_like(r, 0.25));
   const Expr value = make(at, angle.c), slope = make(ahead, angle.c) * sign;
-  const Expr cubic = fma_up(mul_up(rr, r), rounded_up(*r.graph, type, 1.0 / 6 * (1 + 0x1p-50)), angle.e);
-  Affine result = affine::constant(r, symbols_, 0, 1), unit = result;
-  result.c = imp::fma(-value, q, value);
-  result.e = fma_up(imp::abs(slope), cubic, fma_up(imp::abs(value), q, constant_like(r, (off + 7) * eps)));
-  for (std::size_t i = 0; i < symbols_; ++i)
+  const Expr rrr = mul_up(rr, r), sixth = rounded_up(*r.graph, type, 1.0 / 6 * (1 + 0x1p-50));
+  const Ends cubic{fma_up(rrr, sixth, angle.e.nlo), fma_up(rrr, sixth, angle.e.hi)};
+  const Ends roundings = affine::both(constant_like(r, (off + 7) * eps));
+  Affine result = affine::constant(r, shape_, 0, 1), unit = result;
+  result.c = shape_.signed_errors ? value : imp::fma(-value, q, value);
+  result.e = shape_.signed_errors ? affine::plus_product(roundings, -value, {zero(q), add_up(q, q)})
+                                  : affine::plus_product(roundings, value, affine::both(q));
+  result.e = affine::plus_product(result.e, slope, cubic);
+  for (std::size_t i = 0; i < shape_.symbols; ++i)
     if (r.graph->number(angle.x[i].id) != 0.0) result.x[i] = slope * angle.x[i];
   result.limit = 8;
   const Truth near = r < 2 && imp::abs(angle.c) <= elementary::largest_angle(type);

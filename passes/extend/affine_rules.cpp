@@ -41,7 +41,7 @@ struct Factor {
 // A factor that does not change, as `scale` takes it.
 std::optional<Factor> factor(const Affine& a) {
   const Graph& graph = *a.c.graph;
-  const auto value = graph.number(a.c.id), error = graph.number(a.e.id);
+  const auto value = graph.number(a.c.id), error = graph.number(affine::larger(a.e).id);
   if (!value || !error || *value == 0) return std::nullopt;
   for (const Expr x : a.x)
     if (graph.number(x.id) != 0.0) return std::nullopt;
@@ -50,13 +50,14 @@ std::optional<Factor> factor(const Affine& a) {
 }
 
 bool is_exact_zero(const Affine& a) {
-  return a.limit < 1e-19 && a.c.graph->number(a.c.id) == 0.0 && a.c.graph->number(a.e.id) == 0.0;
+  return a.limit < 1e-19 && a.c.graph->number(a.c.id) == 0.0 &&
+         a.c.graph->number(affine::larger(a.e).id) == 0.0;
 }
 
 }  // namespace
 
-AffineRules::AffineRules(const Program& f, const InputBox& box, bool intersect, std::vector<bool> forms)
-    : f_(f), box_(box), symbols_(box.variables.size()), intersect_(intersect), forms_(std::move(forms)) {
+AffineRules::AffineRules(const Program& f, const InputBox& box, AffineOptions options)
+    : f_(f), box_(box), shape_{box.variables.size(), options.signed_errors}, options_(std::move(options)) {
   IMP_ASSERT(box.sides.size() == f.inputs.size() && !f.inputs.empty(), "an enclosure of every input");
   if (!box.domain.empty()) known_ = ranges(f, box.domain, box.sides[0].hi.type());
 }
@@ -67,7 +68,7 @@ Value AffineRules::input(std::size_t i) const {
   const double limit = is_bounded(known, side.hi.type()) ? farthest(known) : infinity;
   const auto symbol = std::ranges::find(box_.variables, i);
   const auto index = static_cast<std::size_t>(symbol - box_.variables.begin());
-  return {affine::of_interval(side, symbols_,
+  return {affine::of_interval(side, shape_,
                               symbol == box_.variables.end() ? std::nullopt : std::optional(index), limit),
           side, true};
 }
@@ -83,10 +84,10 @@ Value AffineRules::constant(const Enclosure& value) const {
   double nearest = like.type() == f32 ? static_cast<double>(value.nearest_float) : value.nearest;
   if (!(std::abs(value.lo) < affine::safe(like.type()) && std::abs(value.hi) < affine::safe(like.type())))
     return only(range);
-  if (value.lo > value.hi) return {affine::constant(like, symbols_, 0, 0), range, true};
+  if (value.lo > value.hi) return {affine::constant(like, shape_, 0, 0), range, true};
   if (std::abs(nearest) < affine::smallest_normal(like.type())) nearest = 0;
   const double error = std::max(value.hi - nearest, nearest - value.lo);
-  return {affine::constant(like, symbols_, nearest, error * (1 + 0x1p-50)), range, true};
+  return {affine::constant(like, shape_, nearest, error * (1 + 0x1p-50)), range, true};
 }
 
 // What is made of the result of an op, without what is known of a node.
@@ -95,7 +96,7 @@ Value AffineRules::settled(Value value) const {
   const Interval ops = clipped(value.range, value.known, type);
   const bool known = imp::is_bounded(value.known, type);
   const auto interval_form = [&] {
-    return affine::of_interval(ops, symbols_, std::nullopt, known ? farthest(value.known) : infinity);
+    return affine::of_interval(ops, shape_, std::nullopt, known ? farthest(value.known) : infinity);
   };
   if (!value.form) {
     value.form = interval_form();
@@ -115,7 +116,7 @@ Value AffineRules::settled(Value value) const {
   if (affine::is_bounded(*value.form)) {
     form = clipped(form, value.known, type);
     form.facts = {value.known.lo >= 0 && value.known.lo <= value.known.hi, true};
-    if (intersect_ || value.narrowed) {
+    if (options_.intersect || value.narrowed) {
       form.nlo = imp::min(form.nlo, ops.nlo);
       form.hi = imp::min(form.hi, ops.hi);
       form.facts.nonnegative |= ops.facts.nonnegative;
@@ -132,7 +133,7 @@ Value AffineRules::settled(Value value) const {
 
 Value AffineRules::finished(Id id, Value value) const {
   if (!known_.empty() && known_[id.index]) value.known = *known_[id.index];
-  if (!forms_.empty() && !forms_[id.index]) value.form.reset();
+  if (!options_.forms.empty() && !options_.forms[id.index]) value.form.reset();
   value = settled(std::move(value));
   value.range.hi.graph->set_span(value.range.hi.id, f_.graph.span(id));
   return value;
@@ -187,7 +188,7 @@ Affine AffineRules::power(const Affine& a, unsigned n) const {
 Value AffineRules::powi(const Value& a, const Value& exponent) const {
   const double n = a.range.hi.graph->number(exponent.range.hi.id).value_or(infinity);
   const Interval range = rules_.powi(a, exponent);
-  if (n == 0) return {affine::constant(a.range.hi, symbols_, 1, 0), range};
+  if (n == 0) return {affine::constant(a.range.hi, shape_, 1, 0), range};
   if (std::abs(n) > largest_power) return only(range);
   const Affine positive = power(*a.form, static_cast<unsigned>(std::abs(n)));
   if (n > 0) return {positive, range, static_cast<int>(n) % 2 == 0};
@@ -203,18 +204,17 @@ Value AffineRules::mod(const Value& a, const Value& b) const {
 // The form of the branch that is taken; where both may be, that of the interval.
 Value AffineRules::select(const Value& c, const Value& a, const Value& b) const {
   const Interval range = rules_.select(c, a, b);
-  const Affine either = affine::of_interval(range, symbols_, std::nullopt, infinity);
+  const Affine either = affine::of_interval(range, shape_, std::nullopt, infinity);
   return {affine::select(!c.truth.no, *a.form, affine::select(!c.truth.yes, *b.form, either)), range};
 }
 
 std::vector<std::optional<Value>> affine_nodes(const Program& f, const InputBox& box) {
-  return over_box(f, AffineRules(f, box, false));
+  return over_box(f, AffineRules(f, box));
 }
 
 std::optional<std::vector<Value>> affine_values(const Program& f, const InputBox& box,
-                                                Diagnostics& diagnostics, bool intersect,
-                                                std::vector<bool> forms) {
-  return outputs_of(f, over_box(f, AffineRules(f, box, intersect, std::move(forms))), diagnostics);
+                                                Diagnostics& diagnostics, AffineOptions options) {
+  return outputs_of(f, over_box(f, AffineRules(f, box, std::move(options))), diagnostics);
 }
 
 std::optional<std::vector<Interval>> enclosures(const std::optional<std::vector<Value>>& values) {
@@ -231,7 +231,12 @@ std::optional<std::vector<Interval>> affine_form(const Program& f, const InputBo
 
 std::optional<std::vector<Interval>> affine_and_interval_form(const Program& f, const InputBox& box,
                                                               Diagnostics& diagnostics) {
-  return enclosures(affine_values(f, box, diagnostics, true));
+  return enclosures(affine_values(f, box, diagnostics, {.intersect = true}));
+}
+
+std::optional<std::vector<Interval>> signed_affine_form(const Program& f, const InputBox& box,
+                                                        Diagnostics& diagnostics) {
+  return enclosures(affine_values(f, box, diagnostics, {.signed_errors = true}));
 }
 
 }  // namespace imp

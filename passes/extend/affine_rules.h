@@ -14,6 +14,12 @@ namespace imp {
 
 struct Enclosure;
 
+struct AffineOptions {
+  bool intersect = false;      // every range is intersected with that of the ops on intervals
+  bool signed_errors = false;  // AF2
+  std::vector<bool> forms{};   // the nodes that are to have a form; all, if empty
+};
+
 class AffineRules {
  public:
   struct Value {
@@ -30,9 +36,7 @@ class AffineRules {
     operator const Possible&() const { return truth; }
   };
 
-  // `intersect`: every range is intersected with that of the ops on intervals. `forms`: the nodes that are to
-  // have a form; all, if empty.
-  AffineRules(const Program& f, const InputBox& box, bool intersect, std::vector<bool> forms = {});
+  AffineRules(const Program& f, const InputBox& box, AffineOptions options = {});
 
   Value input(std::size_t i) const;
   Value truth(bool value) const;
@@ -99,9 +103,8 @@ class AffineRules {
   const Program& f_;
   InputBox box_;
   std::vector<std::optional<Range>> known_;
-  std::size_t symbols_;
-  bool intersect_;
-  std::vector<bool> forms_;
+  affine::Shape shape_;
+  AffineOptions options_;
 };
 
 // Of every node that has a rule, by index.
@@ -109,8 +112,8 @@ std::vector<std::optional<AffineRules::Value>> affine_nodes(const Program& f, co
 
 // The forms of the outputs of `f` over the box, with a symbol for each of its variables, in their order.
 std::optional<std::vector<AffineRules::Value>> affine_values(const Program& f, const InputBox& box,
-                                                             Diagnostics& diagnostics, bool intersect = false,
-                                                             std::vector<bool> forms = {});
+                                                             Diagnostics& diagnostics,
+                                                             AffineOptions options = {});
 
 // Their ranges.
 std::optional<std::vector<Interval>> enclosures(const std::optional<std::vector<AffineRules::Value>>& values);

@@ -69,7 +69,7 @@ std::optional<Widths> widths(const std::optional<IntervalRules::Value>& range,
                              const std::optional<AffineRules::Value>& value) {
   if (!range || !value || !value->form) return std::nullopt;
   const Expr width = add_up(range->number.nlo, range->number.hi), radius = affine::radius(*value->form);
-  return Widths{width, add_up(radius, radius), add_up(value->form->e, value->form->e)};
+  return Widths{width, add_up(radius, radius), add_up(value->form->e.nlo, value->form->e.hi)};
 }
 
 // What the graph comes to, in doubles and whatever rounding, with these inputs: NaN for what is no number.
@@ -184,7 +184,7 @@ std::optional<std::vector<Interval>> auto_form(const Program& f, const InputBox&
   if (is_low_polynomial(f, box.variables)) return slope_form(f, box, diagnostics);
   if (f.graph.size() > most_nodes) return interval_form(f, box, diagnostics);
   const auto trials = try_forms(f, box, box.sides[0].hi.type());
-  return enclosures(affine_values(f, box, diagnostics, false, nodes_with_forms(f, trials)));
+  return enclosures(affine_values(f, box, diagnostics, {.forms = nodes_with_forms(f, trials)}));
 }
 
 Form& affine_form_for(const Program& f, std::span<const Range> domain) {

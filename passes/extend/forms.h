@@ -13,6 +13,9 @@ Form interval_form;
 Form affine_form;
 Form affine_and_interval_form;
 
+// Affine forms whose errors keep their signs (Messine's AF2, 2002).
+Form signed_affine_form;
+
 // Both at once, and either where it pays: see auto.cpp.
 Form auto_form;
 

@@ -46,20 +46,22 @@ const AffineOp ops[] = {
      [](auto a, auto b, auto k) { return k * a + b; }},
 };
 
-class AffineParts : public testing::TestWithParam<AffineOp> {};
+// AF1 and AF2.
+class AffineParts : public testing::TestWithParam<std::tuple<AffineOp, bool>> {};
 
 TEST_P(AffineParts, charge_every_rounding) {
-  const AffineOp& op = GetParam();
+  const auto& [op, signed_errors] = GetParam();
   Program program{.name = "op"};
   const auto form = [&](const std::string& name) {
     const Expr c = input(program, name), x1 = input(program, name + "1"), x2 = input(program, name + "2");
-    return Affine{c, {x1, x2}, zero(c), 10, 0};
+    return Affine{c, {x1, x2}, affine::both(zero(c)), 10, 0, signed_errors};
   };
   const Affine a = form("a"), b = form("b");
   const Affine result = op.build(a, b, input(program, "k"));
   output(program, "c", result.c);
   for (const Expr x : result.x) output(program, "x", x);
-  output(program, "e", result.e);
+  output(program, "e nlo", result.e.nlo);
+  output(program, "e hi", result.e.hi);
   const auto up = interpret(upward(program)), down = interpret(upward(rounded_down(program)));
 
   Random random(0xaf1);
@@ -75,14 +77,99 @@ TEST_P(AffineParts, charge_every_rounding) {
         const auto at = [&](const double* parts) { return parts[0] + u1 * parts[1] + u2 * parts[2]; };
         const long double exact =
             op.exact(at(&in[0]), at(&in[3]), in[6]) * (1 + op.off * static_cast<long double>(0x1p-23));
-        ASSERT_LE(std::abs(exact - at(v.data())), v[3] + 1e-16L)
-            << fmt::format("{} of {}: {} +- {}", op.name, fmt::join(in, ", "), fmt::join(v, ", "), v[3]);
+        ASSERT_LE(at(v.data()) - exact, v[3] + 1e-16L)
+            << fmt::format("{} of {}: {}", op.name, fmt::join(in, ", "), fmt::join(v, ", "));
+        ASSERT_LE(exact - at(v.data()), v[4] + 1e-16L)
+            << fmt::format("{} of {}: {}", op.name, fmt::join(in, ", "), fmt::join(v, ", "));
       }
     }
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Affine, AffineParts, testing::ValuesIn(ops),
+INSTANTIATE_TEST_SUITE_P(Affine, AffineParts,
+                         testing::Combine(testing::ValuesIn(ops), testing::Bool()), [](const auto& test) {
+                           const AffineOp& op = std::get<0>(test.param);
+                           return std::string(op.name) + (std::get<1>(test.param) ? "_af2" : "");
+                         });
+
+struct SignedOp {
+  const char* name;
+  std::function<Affine(const Affine& a, const Affine& b, Expr k)> build;
+  std::function<long double(long double a, long double b, long double k)> exact;
+};
+void PrintTo(const SignedOp& op, std::ostream* out) { *out << op.name; }
+
+const SignedOp signed_ops[] = {
+    {"neg", [](auto& a, auto&, Expr) { return affine::neg(a); }, [](auto a, auto, auto) { return -a; }},
+    {"add", [](auto& a, auto& b, Expr) { return affine::add(a, b); },
+     [](auto a, auto b, auto) { return a + b; }},
+    {"sub", [](auto& a, auto& b, Expr) { return affine::sub(a, b); },
+     [](auto a, auto b, auto) { return a - b; }},
+    {"mul", [](auto& a, auto& b, Expr) { return affine::mul(a, b); },
+     [](auto a, auto b, auto) { return a * b; }},
+    {"square", [](auto& a, auto&, Expr) { return affine::square(a); },
+     [](auto a, auto, auto) { return a * a; }},
+    {"cube", [](auto& a, auto&, Expr) { return affine::cube(a); },
+     [](auto a, auto, auto) { return a * a * a; }},
+    {"scale", [](auto& a, auto&, Expr) { return affine::scale(a, 0.7109375, true); },
+     [](auto a, auto, auto) { return a * 0.7109375L; }},
+    {"scale_and_turn", [](auto& a, auto&, Expr) { return affine::scale(a, -2, true); },
+     [](auto a, auto, auto) { return -2 * a; }},
+    {"line", [](auto& a, auto&, Expr k) { return affine::line(a, k, affine::both(one(k)), 100); },
+     [](auto a, auto b, auto k) { return k * a + std::clamp(b, -1.0L, 1.0L); }},
+    {"select", [](auto& a, auto& b, Expr k) { return affine::select(k > 0, a, b); },
+     [](auto a, auto b, auto k) { return k > 0 ? a : b; }},
+};
+
+// Of operands with errors of any sign, whichever of their values are taken: at the ends of errors and symbols in the
+// most.
+class SignedErrors : public testing::TestWithParam<SignedOp> {};
+
+TEST_P(SignedErrors, hold_whatever_the_operands_hold) {
+  const SignedOp& op = GetParam();
+  Program program{.name = "op"};
+  const auto form = [&](const std::string& name) {
+    const Expr c = input(program, name), x1 = input(program, name + "1"), x2 = input(program, name + "2");
+    const Expr nlo = input(program, name + "nlo"), hi = input(program, name + "hi");
+    return Affine{c, {x1, x2}, {nlo, hi}, 10, 0, true};
+  };
+  const Affine a = form("a"), b = form("b");
+  const Affine result = op.build(a, b, input(program, "k"));
+  output(program, "c", result.c);
+  for (const Expr x : result.x) output(program, "x", x);
+  output(program, "e nlo", result.e.nlo);
+  output(program, "e hi", result.e.hi);
+  const auto up = interpret(upward(program)), down = interpret(upward(rounded_down(program)));
+
+  Random random(0xaf2);
+  const auto one_in = [&](double n) { return random.unit() * n < 1; };
+  const auto number = [&](double lo) {
+    return one_in(3) ? 0 : static_cast<double>(static_cast<float>(random.between(lo, 1)));
+  };
+  const auto share = [&] { return one_in(3) ? random.unit() : one_in(2) ? 1 : 0; };  // of what may come
+  for (int i = 0; i < 3000; ++i) {
+    std::vector<double> in;
+    for (const double lo : {-1, -1, -1, 0, 0, -1, -1, -1, 0, 0, -1}) in.push_back(number(lo));
+    for (const auto& kernel : {up.get(), down.get()}) {
+      const auto v = evaluate(*kernel, in);
+      for (int k = 0; k < 8; ++k) {
+        const long double u1 = 2 * share() - 1, u2 = 2 * share() - 1;
+        const auto at = [&](const double* parts) { return parts[0] + u1 * parts[1] + u2 * parts[2]; };
+        const auto value = [&](const double* parts) {
+          return at(parts) + std::lerp(-parts[3], parts[4], share());
+        };
+        const long double exact = op.exact(value(&in[0]), value(&in[5]), in[10]);
+        const auto about = [&] {
+          return fmt::format("{} of {}: {}", op.name, fmt::join(in, ", "), fmt::join(v, ", "));
+        };
+        ASSERT_LE(at(v.data()) - exact, v[3] + 1e-15L) << about();
+        ASSERT_LE(exact - at(v.data()), v[4] + 1e-15L) << about();
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Affine, SignedErrors, testing::ValuesIn(signed_ops),
                          [](const auto& test) { return test.param.name; });
 
 // At the ends and where the line is a tangent, what is left of the function lies within the rest.
@@ -136,7 +223,7 @@ TEST(AffineDomains, may_be_tiny) {
     for (const double least : {1e-10, 1e-16, 1e-20, 1e-25, 1e-32, 1e-37, 1e-39, 1e-44}) {
       Program f{.name = "f"};
       output(f, "f", build(input(f, "x", f64)));
-      for (Form* form : {&affine_form, &affine_and_interval_form}) {
+      for (Form* form : {&affine_form, &affine_and_interval_form, &signed_affine_form}) {
         Program program{.name = "enclosure"};
         const Expr lo = input(program, "lo"), hi = input(program, "hi");
         const Interval side = interval(-lo, hi, {true, true});

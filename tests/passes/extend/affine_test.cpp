@@ -37,15 +37,17 @@ Program program_of_all(const Build& build) {
 struct Way {
   Type type;
   std::size_t symbols;
-  bool domain, intersect;
+  bool domain;
+  AffineOptions options;
 
   std::string name() const {
-    return fmt::format("{} of {} symbols{}{}", to_text(type), symbols, domain ? ", in the domain" : "",
-                       intersect ? ", intersected" : "");
+    return fmt::format("{} of {} symbols{}{}{}", to_text(type), symbols, domain ? ", in the domain" : "",
+                       options.intersect ? ", intersected" : "",
+                       options.signed_errors ? ", with signed errors" : "");
   }
 };
 
-// The bounds of f, whether it is defined, then the form of f: c, e, x1, ...; and the forms of the variables.
+// The bounds of f, whether it is defined, then the form of f: c, both ends of e, x1, ...; and the forms of the variables.
 Program extended(const Program& f, const Way& way) {
   Program result{.name = "form"};
   std::vector<Interval> sides;
@@ -60,8 +62,8 @@ Program extended(const Program& f, const Way& way) {
   const InputBox box{sides, variables,
                      way.domain ? std::span<const Range>(domain) : std::span<const Range>()};
   Diagnostics diagnostics;
-  const auto value = affine_values(f, box, diagnostics, way.intersect);
-  const AffineRules rules(f, box, way.intersect);
+  const auto value = affine_values(f, box, diagnostics, way.options);
+  const AffineRules rules(f, box, way.options);
   if (!value) throw std::runtime_error(to_text(diagnostics));
   const auto wide = [&](Expr end) { return way.type == f32 ? widen(end) : end; };
   const AffineRules::Value& of_f = value->front();
@@ -70,7 +72,8 @@ Program extended(const Program& f, const Way& way) {
   output(result, "empty", of_f.range.empty);
   output(result, "continuous", of_f.range.continuous);
   output(result, "c", wide(of_f.form->c));
-  output(result, "e", wide(of_f.form->e));
+  output(result, "e nlo", wide(of_f.form->e.nlo));
+  output(result, "e hi", wide(of_f.form->e.hi));
   for (std::size_t i = 0; i < way.symbols; ++i) output(result, names[i], wide(of_f.form->x[i]));
   for (const std::size_t i : variables) {
     const auto side = rules.input(i);
@@ -100,20 +103,21 @@ void expect_enclosed(const Way& way, std::span<const double> v, const Point& at,
   ASSERT_EQ(v[2], 0) << where();
   ASSERT_TRUE(v[0] <= value.hi && value.lo <= v[1]) << where();
 
-  long double middle = v[4], error = v[5], size = std::abs(middle);
+  const long double below = v[5], above = v[6];
+  long double middle = v[4], size = std::abs(middle);
   for (std::size_t i = 0; i < way.symbols; ++i) {
-    const double* variable = &v[6 + way.symbols + 2 * i];
+    const double* variable = &v[7 + way.symbols + 2 * i];
     const long double u = (static_cast<long double>(at[i]) - variable[0]) / variable[1];
     if (variable[1] != 0) {
       ASSERT_LE(std::abs(u), 1 + 1e-15L) << where();
-      middle += u * v[6 + i];
+      middle += u * v[7 + i];
     }
-    size += std::abs(v[6 + i]);
+    size += std::abs(v[7 + i]);
   }
-  if (!(size + error < HUGE_VALL)) return;                               // no form
+  if (!(size + below + above < HUGE_VALL)) return;                       // no form
   const long double slack = size * (way.type == f32 ? 1e-15L : 1e-14L);  // of this computation
-  ASSERT_TRUE(value.lo - error - slack <= middle && middle <= value.hi + error + slack)
-      << where() << fmt::format(", {} +- {}", static_cast<double>(middle), v[5]);
+  ASSERT_TRUE(value.lo - above - slack <= middle && middle <= value.hi + below + slack)
+      << where() << fmt::format(", {} - {} + {}", static_cast<double>(middle), v[5], v[6]);
 }
 
 // A formula whose operands depend on each other.
@@ -202,8 +206,9 @@ void expect_forms_enclose(const Entangled& formula, double scale, Program (*chan
   std::vector<std::pair<Way, std::unique_ptr<Kernel>>> ways;
   for (const Type type : {f32, f64})
     for (const std::size_t symbols : {1u, 2u, 3u, 6u})
-      for (const int mode : {0, 1, 2, 3}) {
-        const Way way{type, symbols, mode % 2 != 0, mode / 2 != 0};
+      for (const int mode : {0, 1, 2, 3, 4, 5}) {
+        const Way way{
+            type, symbols, mode % 2 != 0, {.intersect = mode / 2 == 1, .signed_errors = mode / 2 == 2}};
         ways.emplace_back(way, interpret(change(run_passes(extended(f, way), kernel_passes()))));
       }
   Boxes boxes(0xaff);

@@ -68,7 +68,7 @@ TEST_P(Tightness, forms_are_narrower_than_intervals) {
   const auto& [name, formula, x, y, factor] = GetParam();
   for (const Type type : {f32, f64}) {
     const Bounds intervals = over(formula, interval_form, type, x, y);
-    for (Form* form : {&affine_form, &affine_and_interval_form}) {
+    for (Form* form : {&affine_form, &affine_and_interval_form, &signed_affine_form}) {
       const Bounds bounds = over(formula, *form, type, x, y);
       EXPECT_TRUE(bounds.defined);
       EXPECT_LE(bounds.lo, bounds.hi);
@@ -87,7 +87,7 @@ TEST(AffineBoxes, infinite_ones_are_those_of_intervals) {
   for (const Formula& formula : formulas)
     for (const Type type : {f32, f64})
       for (const Box1 x : {Box1{-infinity, infinity}, {0, infinity}, {-infinity, 1}})
-        for (Form* form : {&affine_form, &affine_and_interval_form}) {
+        for (Form* form : {&affine_form, &affine_and_interval_form, &signed_affine_form}) {
           const Bounds bounds = over(formula, *form, type, x, unit);
           const Bounds intervals = over(formula, interval_form, type, x, unit);
           EXPECT_EQ(bounds.lo, intervals.lo);
@@ -107,7 +107,7 @@ TEST(AffineBoxes, empty_ones_have_no_values) {
                      {IMP_OF(make(Op::log, x) * y), {-2, -1}}};
   for (const auto& [formula, x] : cases)
     for (const Type type : {f32, f64})
-      for (Form* form : {&affine_form, &affine_and_interval_form}) {
+      for (Form* form : {&affine_form, &affine_and_interval_form, &signed_affine_form}) {
         const Bounds bounds = over(formula, *form, type, x, unit);
         EXPECT_GT(bounds.lo, bounds.hi);
         EXPECT_FALSE(bounds.defined);

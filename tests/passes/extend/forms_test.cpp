@@ -78,7 +78,8 @@ INSTANTIATE_TEST_SUITE_P(Forms, Converges,
                          testing::Values(Order{"mean_value", mean_value_form, 2},
                                          Order{"slope", slope_form, 2}, Order{"taylor", taylor_form, 2},
                                          Order{"cubic", cubic_form, 3}, Order{"af1", affine_form, 2},
-                                         Order{"af1_ia", affine_and_interval_form, 2}),
+                                         Order{"af1_ia", affine_and_interval_form, 2},
+                                         Order{"af2", signed_affine_form, 2}),
                          [](const auto& test) { return test.param.name; });
 
 TEST(Forms, all_enclose_smooth_formulas) {
