@@ -13,43 +13,22 @@ namespace {
 constexpr int flushes = 1 << 20;
 double reserve(Type type) { return flushes * smallest_normal(type); }
 
-bool is_zero(Expr a) { return a.graph->number(a.id) == 0.0; }
-
 // The part 0 stays out of it: no form drops out by that, as its other parts tell (see `mul`).
 Expr product(Expr a, Expr b) { return is_zero(a) ? a : is_zero(b) ? b : a * b; }
 Expr sum_of_product(Expr a, Expr b, Expr c) {
   if (is_zero(a) || is_zero(b)) return c;
   return is_zero(c) ? a * b : imp::fma(a, b, c);
 }
-Expr sum_of_product_up(Expr a, Expr b, Expr c) {
-  if (is_zero(a) || is_zero(b)) return c;
-  return is_zero(c) ? mul_up(a, b) : fma_up(a, b, c);
-}
 
 // What limits grow by in a rule, all roundings included.
 double grown(double limit) { return 1.001 * limit + 1e-20; }
 
-// sum + factor d for a factor >= 0.
-Ends plus_multiple(const Ends& sum, Expr factor, const Ends& d) {
-  return {sum_of_product_up(factor, d.nlo, sum.nlo), sum_of_product_up(factor, d.hi, sum.hi)};
-}
-
-Ends plus(const Ends& a, const Ends& b) { return {add_up(a.nlo, b.nlo), add_up(a.hi, b.hi)}; }
-Ends turned(const Ends& a) { return {a.hi, a.nlo}; }
-bool is_symmetric(const Ends& a) { return a.nlo == a.hi; }
-
-Expr linear(const Affine& a) {  // Σ|xi|
-  Expr sum = zero(a.c);
+Expr plus_linear(Expr sum, const Affine& a) {
   for (const Expr x : a.x) sum = add_up(sum, abs(x));
   return sum;
 }
-
-Expr size(const Affine& a) {  // |c| + Σ|xi|
-  Expr sum = abs(a.c);
-  for (const Expr x : a.x) sum = add_up(sum, abs(x));
-  return sum;
-}
-
+Expr linear(const Affine& a) { return plus_linear(zero(a.c), a); }  // Σ|xi|
+Expr size(const Affine& a) { return plus_linear(abs(a.c), a); }     // |c| + Σ|xi|
 std::size_t parts(const Affine& a) { return a.x.size() + 1; }
 
 // Pays for `count` flushed results.
@@ -100,7 +79,6 @@ Affine joined(const Affine& a, const Affine& b, const Ends& error_of_b, Join joi
 
 // sum + r1 r2 with ri = Li + Di, what depends on symbols and what does not (AF2). Of L1 L2 the product of the parts of
 // one symbol is p ui², which lies between 0 and p; those of two symbols have either sign, as have L1 D2 and L2 D1.
-// D1 D2 is largest where both are at upper or both at lower ends, and holds 0 as both do.
 Ends plus_deviations(Ends sum, const Affine& a, const Affine& b) {
   const Expr none = zero(a.c), first = larger(a.e), second = larger(b.e);
   Expr either = mul_up(linear(b), first);
@@ -113,9 +91,7 @@ Ends plus_deviations(Ends sum, const Affine& a, const Affine& b) {
       if (k != i) others = add_up(others, abs(b.x[k]));
     either = sum_of_product_up(abs(a.x[i]), others, either);
   }
-  const Ends errors{max(mul_up(a.e.nlo, b.e.hi), mul_up(a.e.hi, b.e.nlo)),
-                    max(mul_up(a.e.nlo, b.e.nlo), mul_up(a.e.hi, b.e.hi))};
-  return plus(plus(sum, both(either)), errors);
+  return plus(plus(sum, both(either)), times(a.e, b.e));
 }
 
 }  // namespace
@@ -147,8 +123,8 @@ Affine constant(Expr like, const Shape& shape, double value, double error) {
 // c is.
 Affine of_interval(const Interval& a, const Shape& shape, std::optional<std::size_t> symbol, double limit) {
   const Expr none = zero(a.hi), spare = constant_like(a.hi, reserve(a.hi.type()));
-  Affine result{a.hi,         std::vector(shape.symbols, none), both(spare),
-                grown(limit), flushes - 1,                      shape.signed_errors};
+  Affine result{
+      a.hi, std::vector(shape.symbols, none), both(spare), grown(limit), flushes - 1, shape.signed_errors};
   if ((-a.hi).id == a.nlo.id) return result;  // a point
   result.c = 0.5 * (a.hi - a.nlo);
   const Expr distance = max(add_up(a.hi, -result.c), add_up(a.nlo, result.c));
@@ -158,8 +134,6 @@ Affine of_interval(const Interval& a, const Shape& shape, std::optional<std::siz
     result.e = both(add_up(distance, spare));
   return result;
 }
-
-Expr larger(const Ends& e) { return is_symmetric(e) ? e.hi : max(e.nlo, e.hi); }
 
 Ends deviation(const Affine& a) { return plus(both(linear(a)), a.e); }
 Expr radius(const Affine& a) { return larger(deviation(a)); }
@@ -171,14 +145,6 @@ Truth is_form(const Affine& a) {
 Ends ends(const Affine& a) {
   const Ends r = deviation(a);
   return {add_up(r.nlo, -a.c), add_up(r.hi, a.c)};
-}
-
-// d holds 0, so that its ends only change places with the sign of the factor.
-Ends plus_product(const Ends& sum, Expr factor, const Ends& d) {
-  if (is_symmetric(d)) return plus_multiple(sum, abs(factor), d);
-  const Truth upright = factor >= 0;
-  return plus_multiple(sum, abs(factor),
-                       {imp::select(upright, d.nlo, d.hi), imp::select(upright, d.hi, d.nlo)});
 }
 
 Affine neg(const Affine& a) {
@@ -203,8 +169,8 @@ Affine sub(const Affine& a, const Affine& b) {
 // Roundings: a part is a sum of at most two products, each rounded, and the sum: (2 eps + eps²) of the sum of
 // their magnitudes. p/2 counts three times: as an addend, for the sum, and because |p|/2 stands for the exact
 // one: 3/2 eps |p| in all. The magnitudes |c1 c2|, |c1 x2|, |c2 x1|, |p| are terms of M1 M2, where Mi is
-// the magnitude of an operand, so 2.5 eps M1 M2 pays; and where a term overflows, M1 M2 is infinite. AF2 leaves c1 c2
-// where it is: less to pay for.
+// the magnitude of an operand, so 2.5 eps M1 M2 pays; and where a term overflows, M1 M2 is infinite. AF2 leaves p out
+// of c, and so out of what is charged.
 Affine mul(const Affine& a, const Affine& b) {
   const auto diagonal = only_symbol(a, b);
   const Type type = a.c.type();
@@ -260,7 +226,7 @@ Affine square(const Affine& a) {
 //
 // Roundings: c (c² + 3/2 R²) four at most, 3 c² x three, 3 c² e one for c²; so 4 eps M³ pays. A flushed c² or
 // R² counts |c|, 3 |x| or 3 e times: hence the reserve inside the product too. In AF2 c³ has two and 3 c one, for
-// which 3 |c| R² is a term of M³.
+// which 3 |c| R² is a term of M³; where 3 c is flushed that costs R² times as much, less than reserve M + eps M³.
 Affine cube(const Affine& a) {
   const Type type = a.c.type();
   const Expr r = radius(a), m = magnitude(a), spare = constant_like(m, reserve(type) / eps(type));
@@ -274,9 +240,8 @@ Affine cube(const Affine& a) {
                 a.signed_errors};
   for (const Expr x : a.x) result.x.push_back(product(slope, x));
   result.e = plus_multiple(result.e, slope, a.e);
-  result.e = a.signed_errors
-                 ? plus_product(result.e, 3.0 * a.c, {zero(rr), rr})
-                 : plus_multiple(result.e, rr, both(mul_up(constant_like(r, 1.5), abs(a.c))));
+  result.e = a.signed_errors ? plus_product(result.e, 3.0 * a.c, {zero(rr), rr})
+                             : plus_multiple(result.e, rr, both(mul_up(constant_like(r, 1.5), abs(a.c))));
   result.e = plus_multiple(result.e, rr, deviation(a));
   return result;
 }
@@ -288,8 +253,8 @@ Affine scale(const Affine& a, double value, bool exact) {
   const Type type = a.c.type();
   const Expr factor = constant_like(a.c, value);
   const double grow = std::abs(value) * (exact ? 1 : 1 + 3 * eps(type));
-  Affine result{product(a.c, factor), {},           value < 0 ? turned(a.e) : a.e,
-                grown(grow * a.limit), a.spare,      a.signed_errors};
+  Affine result{product(a.c, factor),  {},      value < 0 ? turned(a.e) : a.e,
+                grown(grow * a.limit), a.spare, a.signed_errors};
   if (std::isnan(result.limit)) result.limit = infinity;
   for (const Expr x : a.x) result.x.push_back(product(x, factor));
   const bool shrinks = !power_of_two || std::abs(value) < 1;
@@ -301,25 +266,21 @@ Affine scale(const Affine& a, double value, bool exact) {
   return result;
 }
 
-// The middle m of the rest goes to c; in AF2 its lower end, which is where a convex function touches the line.
-//
 // Roundings: (2 eps + eps²) of |factor c| + |m| and eps of each |factor x|. A factor below the smallest normal
-// number may be taken for 0: that costs as much for each of c and x. With the width of the rest among what is charged
-// neither end of e can be infinite or NaN alone.
+// number may be taken for 0: that costs as much for each of c and x.
 Affine line(const Affine& a, Expr factor, const Ends& rest, double limit) {
   const Type type = a.c.type();
-  const Expr m = a.signed_errors ? -rest.nlo : 0.5 * (rest.hi - rest.nlo), steep = abs(factor);
-  const Ends around = a.signed_errors ? Ends{zero(m), add_up(rest.nlo, rest.hi)}
-                                      : both(max(add_up(rest.nlo, m), add_up(rest.hi, -m)));
+  const Expr m = 0.5 * (rest.hi - rest.nlo), steep = abs(factor);
+  const Ends around = both(max(add_up(rest.nlo, m), add_up(rest.hi, -m)));
   const Expr steeper = add_up(steep, constant_like(steep, smallest_normal(type) / eps(type)));
-  const Expr moved = a.signed_errors ? add_up(abs(m), around.hi) : abs(m);
-  const Expr all = fma_up(steeper, size(a), add_up(moved, constant_like(m, reserve(type) / eps(type))));
-  Affine result{sum_of_product(factor, a.c, m),
-                {},
-                plus_multiple(plus_product(around, factor, a.e), all, both(constant_like(all, 2.5 * eps(type)))),
-                limit,
-                flushes - 3 * static_cast<int>(parts(a)),
-                a.signed_errors};
+  const Expr all = fma_up(steeper, size(a), add_up(abs(m), constant_like(m, reserve(type) / eps(type))));
+  Affine result{
+      sum_of_product(factor, a.c, m),
+      {},
+      plus_multiple(plus_product(around, factor, a.e), all, both(constant_like(all, 2.5 * eps(type)))),
+      limit,
+      flushes - 3 * static_cast<int>(parts(a)),
+      a.signed_errors};
   for (const Expr x : a.x) result.x.push_back(product(factor, x));
   return result;
 }

@@ -4,7 +4,8 @@
 //
 // Messine's AF2 has two errors more, p [0, 1] and n [-1, 0], so that a square goes to p and c stays where it was. As
 // no error term is ever recognized again, all three together are [-(e + n), e + p], and these two ends are what a form
-// has. In AF1 they are one and the same node, and so what is made of them.
+// has. In AF1 they are one and the same node, and so is what is made of them. Lines in the place of functions have
+// their rest on both sides in AF2 too.
 //
 // Every rounding goes into e too. The operations on c and x are plain ones, each off by at most eps of its
 // result or what is denormal (design: faithful, denormals may be flushed); those on e round upward. Each rule
@@ -14,27 +15,19 @@
 #include <optional>
 #include <vector>
 
+#include "passes/extend/affine_ends.h"
 #include "passes/extend/interval_rules.h"
 
 namespace imp {
-
-namespace affine {
-
-struct Ends {
-  Expr nlo, hi;  // [-nlo, hi]
-};
-inline Ends both(Expr end) { return {end, end}; }
-
-}  // namespace affine
 
 struct Affine {
   Expr c;
   std::vector<Expr> x;  // the constant 0 where there is no dependence
   affine::Ends e;       // neither is negative
-  double limit;         // |c| + Σ|xi| + e never exceeds it, on any box. Infinity: one may be infinite or NaN, and
-                        // then this is no form
-  int spare = 0;        // so many results below the smallest normal number may still be flushed at the cost of e
-  bool signed_errors = false;  // AF2: the ends of e may differ
+  double limit;   // |c| + Σ|xi| + e never exceeds it, on any box. Infinity: one may be infinite or NaN, and
+                  // then this is no form
+  int spare = 0;  // so many results below the smallest normal number may still be flushed at the cost of e
+  bool signed_errors = false;  // AF2: the ends of e may differ. Never is one NaN where all else is finite
 };
 
 namespace affine {
@@ -82,11 +75,6 @@ Affine scale(const Affine& a, double value, bool exact);
 // factor a + [-rest.nlo, rest.hi]: what the linear rules of non-affine functions come down to. `limit` is of
 // the result.
 Affine line(const Affine& a, Expr factor, const Ends& rest, double limit);
-
-Expr larger(const Ends& e);
-
-// sum + factor d, for d that holds 0.
-Ends plus_product(const Ends& sum, Expr factor, const Ends& d);
 
 // Where c the one, else the other.
 Affine select(Truth c, const Affine& a, const Affine& b);

@@ -103,7 +103,7 @@ Value AffineRules::log(const Value& a) const {
 //
 // Roundings, with R < 2: the two values are off by n eps each, as stated in elementary/bounds.h, and at most 1;
 // c' three roundings of at most 1, each x' one, of at most R in all: 6 eps. Beyond, and where the angle is too large,
-// it is [-1, 1]. In AF2 c' is sin(c), and -2 q sin(c) an error that turns with its sign.
+// it is [-1, 1].
 Affine AffineRules::wave(const Affine& angle, Op at, Op ahead, double sign) const {
   const Type type = angle.c.type();
   const double eps = affine::eps(type), off = *elementary::ulps(at, type) + *elementary::ulps(ahead, type);
@@ -113,9 +113,8 @@ Affine AffineRules::wave(const Affine& angle, Op at, Op ahead, double sign) cons
   const Ends cubic{fma_up(rrr, sixth, angle.e.nlo), fma_up(rrr, sixth, angle.e.hi)};
   const Ends roundings = affine::both(constant_like(r, (off + 7) * eps));
   Affine result = affine::constant(r, shape_, 0, 1), unit = result;
-  result.c = shape_.signed_errors ? value : imp::fma(-value, q, value);
-  result.e = shape_.signed_errors ? affine::plus_product(roundings, -value, {zero(q), add_up(q, q)})
-                                  : affine::plus_product(roundings, value, affine::both(q));
+  result.c = imp::fma(-value, q, value);
+  result.e = affine::plus_product(roundings, value, affine::both(q));
   result.e = affine::plus_product(result.e, slope, cubic);
   for (std::size_t i = 0; i < shape_.symbols; ++i)
     if (r.graph->number(angle.x[i].id) != 0.0) result.x[i] = slope * angle.x[i];

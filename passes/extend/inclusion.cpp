@@ -14,7 +14,7 @@ constexpr Inclusion table[] = {
     {"ia", "the natural interval extension", interval_form},
     {"af1", "reduced affine arithmetic, a symbol for each variable", affine_form},
     {"af1-ia", "the same, intersected with interval arithmetic at every op", affine_and_interval_form},
-    {"af2", "affine arithmetic whose errors keep their signs: a square is never negative", signed_affine_form},
+    {"af2", "affine arithmetic with errors that know their sign", signed_affine_form},
     {"mean-value", "the mean value form: the value in the middle and the interval gradient", mean_value_form},
     {"taylor", "the Taylor form of order 2", taylor_form},
     {"cubic", "the form of cubic convergence along a ray", cubic_form},

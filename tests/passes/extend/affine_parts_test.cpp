@@ -86,8 +86,8 @@ TEST_P(AffineParts, charge_every_rounding) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Affine, AffineParts,
-                         testing::Combine(testing::ValuesIn(ops), testing::Bool()), [](const auto& test) {
+INSTANTIATE_TEST_SUITE_P(Affine, AffineParts, testing::Combine(testing::ValuesIn(ops), testing::Bool()),
+                         [](const auto& test) {
                            const AffineOp& op = std::get<0>(test.param);
                            return std::string(op.name) + (std::get<1>(test.param) ? "_af2" : "");
                          });
