@@ -80,18 +80,18 @@ Affine joined(const Affine& a, const Affine& b, const Ends& error_of_b, Join joi
 // sum + r1 r2 with ri = Li + Di, what depends on symbols and what does not (AF2). Of L1 L2 the product of the parts of
 // one symbol is p ui², which lies between 0 and p; those of two symbols have either sign, as have L1 D2 and L2 D1.
 Ends plus_deviations(Ends sum, const Affine& a, const Affine& b) {
-  const Expr none = zero(a.c), first = larger(a.e), second = larger(b.e);
-  Expr either = mul_up(linear(b), first);
+  const Expr second = larger(b.e);
+  Expr either = mul_up(linear(b), larger(a.e));
   for (std::size_t i = 0; i < a.x.size(); ++i) {
     if (is_zero(a.x[i])) continue;
-    if (!is_zero(b.x[i]))
-      sum = plus(sum, {max(mul_up(-a.x[i], b.x[i]), none), max(mul_up(a.x[i], b.x[i]), none)});
+    sum.nlo = max(sum_of_product_up(-a.x[i], b.x[i], sum.nlo), sum.nlo);
+    sum.hi = max(sum_of_product_up(a.x[i], b.x[i], sum.hi), sum.hi);
     Expr others = second;
     for (std::size_t k = 0; k < b.x.size(); ++k)
       if (k != i) others = add_up(others, abs(b.x[k]));
     either = sum_of_product_up(abs(a.x[i]), others, either);
   }
-  return plus(plus(sum, both(either)), times(a.e, b.e));
+  return plus_set_product(plus(sum, both(either)), a.e, b.e);
 }
 
 }  // namespace

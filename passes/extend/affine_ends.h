@@ -19,10 +19,12 @@ inline bool is_zero(Expr a) { return a.graph->number(a.id) == 0.0; }
 Expr sum_of_product_up(Expr a, Expr b, Expr c);  // a b + c
 
 Ends plus(const Ends& a, const Ends& b);
-Ends times(const Ends& a, const Ends& b);
 
 // sum + factor d; for a factor >= 0, and for any.
 Ends plus_multiple(const Ends& sum, Expr factor, const Ends& d);
 Ends plus_product(const Ends& sum, Expr factor, const Ends& d);
+
+// sum + a b.
+Ends plus_set_product(const Ends& sum, const Ends& a, const Ends& b);
 
 }  // namespace imp::affine
