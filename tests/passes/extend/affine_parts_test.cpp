@@ -172,6 +172,25 @@ TEST_P(SignedErrors, hold_whatever_the_operands_hold) {
 INSTANTIATE_TEST_SUITE_P(Affine, SignedErrors, testing::ValuesIn(signed_ops),
                          [](const auto& test) { return test.param.name; });
 
+// Around 0: what AF2 is for.
+TEST(SignedErrors, know_that_products_of_squares_are_not_negative) {
+  Program program{.name = "products"};
+  const Expr none = zero(input(program, "none")), unit = one(none);
+  const auto variable = [&](std::size_t i) {
+    Affine result{none, {none, none}, affine::both(none), 1, 0, true};
+    result.x[i] = unit;
+    return result;
+  };
+  const Affine x = variable(0), y = variable(1), xx = affine::square(x), yy = affine::square(y);
+  const Affine zz = affine::mul(x, x), sum = affine::add(xx, yy);
+  for (const Affine& form : {affine::mul(xx, yy), affine::mul(zz, sum), affine::square(affine::sub(sum, zz)),
+                             affine::neg(affine::cube(affine::scale(sum, -2, true)))}) {
+    const affine::Ends ends = affine::ends(form);
+    output(program, "lo", -ends.nlo);
+  }
+  for (const double lo : evaluate(program, std::array{0.0})) EXPECT_GE(lo, -1e-4);
+}
+
 // At the ends and where the line is a tangent, what is left of the function lies within the rest.
 void expect_rest_holds(affine::Line (*line)(Expr, Expr), long double (*f)(long double),
                        long double (*touches)(long double k)) {
