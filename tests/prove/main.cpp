@@ -41,6 +41,7 @@ int main(int argc, char** argv) {
   imp::prove::SearchOptions searches;
   CLI::App* rays = app.add_subcommand("searches", "every strategy on random rays at the catalogue");
   rays->add_option("--only", searches.only, "these surfaces")->delimiter(',');
+  rays->add_option("--strategies", searches.strategies, "these strategies")->delimiter(',');
   rays->add_option("--inclusions", searches.inclusions, "with these inclusions")->delimiter(',');
   rays->add_option("--samples", searches.rays, "rays a surface")->check(CLI::PositiveNumber);
   rays->add_option("--done", searches.done, "a folder that remembers what is finished");

@@ -1,7 +1,9 @@
 #include "tests/prove/searches.h"
 
 #include <map>
+#include <ranges>
 #include <sstream>
+#include <stdexcept>
 
 #include "tests/prove/cores.h"
 #include "tests/prove/rows.h"
@@ -130,18 +132,25 @@ void print_by_way(const std::vector<test::Way>& ways, const std::vector<Count>& 
 }  // namespace
 
 bool searches(const SearchOptions& options) {
+  const auto tried = [&](const Search& search) {
+    return options.strategies.empty() ||
+           std::ranges::find(options.strategies, search.name) != options.strategies.end();
+  };
   std::vector<test::Way> ways;
   for (const std::string& inclusion : options.inclusions)
     for (const test::Way& way : test::every_way({inclusion}))
-      if (!way.search->by_coefficients || inclusion == options.inclusions.front()) ways.push_back(way);
+      if (tried(*way.search) && (!way.search->by_coefficients || inclusion == options.inclusions.front()))
+        ways.push_back(way);
+  if (ways.empty()) throw std::runtime_error("no such strategy");
   std::vector<Count> totals(ways.size());
   const auto in_first_table = [&](const test::Way& way) { return way.inclusion == ways.front().inclusion; };
 
   fmt::print("Easy rays decided, %, float / double, with the inclusion {}\n\n| surface | easy rays |",
              ways.front().inclusion->name);
-  for (const Search& search : imp::searches()) fmt::print(" {} |", search.name);
-  fmt::print(" wrong | |\n| --- | ---: |");
-  for (std::size_t i = 0; i < imp::searches().size(); ++i) fmt::print(" ---: |");
+  std::string rule;
+  for (const Search& search : imp::searches() | std::views::filter(tried))
+    fmt::print(" {} |", search.name), rule += " ---: |";
+  fmt::print(" wrong | |\n| --- | ---: |{}", rule);
   fmt::print(" ---: | --- |\n");
 
   for (const test::SurfaceEntry& entry : test::catalogue()) {

@@ -9,6 +9,7 @@ namespace imp::prove {
 
 struct SearchOptions {
   std::vector<std::string> only;                      // surfaces; empty: all
+  std::vector<std::string> strategies;                // empty: all
   std::vector<std::string> inclusions{"auto", "ia"};  // with each strategy
   std::size_t rays = 20'000;                          // a surface
   std::string done;  // a folder with a file for every finished cell; empty: none
