@@ -61,7 +61,7 @@ Canvas::Canvas(Picture& picture, const std::vector<Output>& outputs)
 void Canvas::draw(const PixelRows& pixels) {
   const std::vector<float>& verdicts = pixels.outputs[verdict_];
   if (std::ranges::find(verdicts, static_cast<float>(verdict_undecided)) != verdicts.end())
-    any_undecided_ = true;
+    note_undecided(pixels);
   constexpr std::size_t at_once = 256;
   std::array<std::size_t, at_once> from, to;  // pixels that lie in the picture
   for (std::size_t first = 0; first < pixels.count; first += at_once) {
@@ -86,14 +86,21 @@ void Canvas::clear(std::size_t x, std::size_t y, std::size_t width, std::size_t 
                   plane.data + plane.stride * (row * picture_.width + x));
 }
 
-Undecided Canvas::undecided() const {
+void Canvas::note_undecided(const PixelRows& pixels) {
+  const std::lock_guard lock(mutex_);
+  for (std::size_t i = 0; i < pixels.count; ++i)
+    if (pixels.outputs[verdict_][i] == static_cast<float>(verdict_undecided) &&
+        pixels.columns[i] < picture_.width && pixels.rows[i] < picture_.height)
+      undecided_.push_back(pixels.rows[i] * picture_.width + pixels.columns[i]);
+}
+
+Undecided Canvas::undecided() {
+  std::ranges::sort(undecided_);  // they come from many threads
   Undecided pixels;
-  if (!any_undecided_) return pixels;
-  for (std::size_t i = 0; i < picture_.verdict.size(); ++i)
-    if (picture_.verdict[i] == static_cast<float>(verdict_undecided)) {
-      pixels.columns.push_back(static_cast<std::uint32_t>(i % picture_.width));
-      pixels.rows.push_back(static_cast<std::uint32_t>(i / picture_.width));
-    }
+  for (const std::size_t place : undecided_) {
+    pixels.columns.push_back(static_cast<std::uint32_t>(place % picture_.width));
+    pixels.rows.push_back(static_cast<std::uint32_t>(place / picture_.width));
+  }
   return pixels;
 }
 

@@ -1,7 +1,7 @@
 // A picture while it is drawn: which output of a pixel's Program goes where.
 #pragma once
 
-#include <atomic>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -25,13 +25,15 @@ class Canvas {
   void draw(const PixelRows& pixels);
   void clear(std::size_t x, std::size_t y, std::size_t width, std::size_t height);  // to the background
 
-  // The pixels drawn with an undecided verdict.
-  Undecided undecided() const;
+  // The pixels drawn with an undecided verdict, in the order of the picture.
+  Undecided undecided();
 
   // Over what is there, where the new verdict is not undecided; but the steps are added.
   void draw_decided(const PixelRows& pixels);
 
  private:
+  void note_undecided(const PixelRows& pixels);
+
   struct Channel {
     float* data;
     std::size_t stride;  // between pixels
@@ -47,7 +49,8 @@ class Canvas {
   std::vector<Channel> channels_;  // an output each
   std::vector<Plane> planes_;
   std::size_t verdict_, steps_;  // the places of these two; past the end where there is none
-  std::atomic<bool> any_undecided_ = false;
+  std::mutex mutex_;
+  std::vector<std::size_t> undecided_;  // places in the picture
 };
 
 }  // namespace imp

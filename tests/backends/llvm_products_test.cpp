@@ -150,7 +150,7 @@ TEST(LlvmProducts, targets) {
   ASSERT_EQ(cpu_targets().size(), 4u);
   EXPECT_FALSE(cpu_target("sparc").has_value());
   const Program program = parsed("program p\n  input ray x: f32\n  output x = %x\nend\n");
-  EXPECT_EQ(cpu_target("avx512")->lanes(program), 32u);
+  EXPECT_EQ(cpu_target("avx512")->lanes(program), 16u);
   EXPECT_EQ(cpu_target("avx2")->lanes(program), 8u);
   EXPECT_EQ(cpu_target("sse4.1")->lanes(program), 4u);
   const Program doubles = parsed("program p\n  input ray x: f64\n  %y = add %x 1\n  output y = %y\nend\n");

@@ -26,8 +26,8 @@ struct Approach {
   Expr s, slope;  // df/ds about there
 };
 
-// In the arithmetic of the kernel. In floats it is left where Newton's method seems to converge: what is wrong
-// about that the probe finds out.
+// In the arithmetic of the kernel. In floats it is left where Newton's method seems to converge, to one step in double:
+// what is wrong about that the probe finds out.
 Approach approach(Program& program, const RayFunction& f, const Bracket& bracket) {
   const bool in_float = f.like.type() == f32;
   const auto& [a, b, sign_a, changes] = bracket;
@@ -50,9 +50,16 @@ Approach approach(Program& program, const RayFunction& f, const Bracket& bracket
   loop.enter_if(changes);
   const double resolution = in_float ? 0x1p-25 : 0x1p-54;
   const Truth unfinished = length > resolution * abs(s) && step.hi - step.lo > resolution;
-  const Truth converges = step.by_newton && length < 0x1p-10;
+  const Truth converges = step.by_newton && length < 0x1p-8;
   loop.again_while(in_float ? unfinished && !converges : unfinished);
   return {loop.result(s), loop.result(slope)};
+}
+
+// One step in double: what the rounding of f in floats moved the root by is gone, upward rounding above all, whose
+// errors add up. The slope is as good as another one.
+Expr corrected(const RayFunction& f, const Bracket& bracket, const Approach& start) {
+  const Expr s = to(f32, to(f64, start.s) - f.value_in_double(start.s) / to(f64, start.slope));
+  return select(bracket.a <= s && s <= bracket.b, s, start.s);
 }
 
 // Looks at both sides of s.
@@ -106,8 +113,9 @@ Refined polish(Program& program, const RayFunction& f, const Bracket& bracket, c
 Refined refine(Program& program, const RayFunction& f, const Bracket& bracket) {
   const Approach start = approach(program, f, bracket);
   if (f.like.type() == f64) return {start.s, bracket.changes};
-  const Refined seen = probe(f, bracket, start.s);
-  const Refined polished = polish(program, f, bracket, start, bracket.changes && !seen.enclosed);
+  const Expr s = corrected(f, bracket, start);
+  const Refined seen = probe(f, bracket, s);
+  const Refined polished = polish(program, f, bracket, {s, start.slope}, bracket.changes && !seen.enclosed);
   return {select(seen.enclosed, seen.s, polished.s), seen.enclosed || polished.enclosed};
 }
 
