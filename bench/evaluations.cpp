@@ -177,8 +177,8 @@ class Inputs {
   std::vector<float> result_;
 };
 
-// Cycles a nanosecond, as far as the peak of multiply-adds tells: two of the widest registers a cycle.
-double cycles_a_nanosecond() { return peak_gflops() / (__builtin_cpu_supports("avx512f") != 0 ? 64 : 32); }
+// As far as the peak of multiply-adds tells: two of the widest registers a cycle.
+double cycles_a_nanosecond() { return peak_gflops() / peak_a_cycle(); }
 
 Program coordinate() {
   Program x{.name = "x"};

@@ -14,6 +14,7 @@ constexpr int rounds = 3;
 
 void print_row(const std::string& name, const std::shared_ptr<Workers>& workers) {
   RenderOptions options;
+  options.kernel.target = only.target_name();
   options.width = options.height = 512;
   options.workers = workers;
   options.steps = true;

@@ -50,6 +50,7 @@ Scene prepared(const char* surface, const std::shared_ptr<Workers>& workers, boo
   options.tiles = false;
   options.wish = {search_named("stackless"), inclusion_named("ia")};
   options.kernel.outward = outward;
+  options.kernel.target = only.target_name();
   return scene(surface, options);
 }
 
@@ -85,7 +86,7 @@ void print_knoll_table() {
     Measured plain, sound, fast;
     std::vector<double> peaks, price;
     for (int round = 0; round < rounds; ++round) {
-      peaks.push_back(peak_gflops());
+      peaks.push_back(peak_gflops(only.widest()));
       measure<ThreadClock>(nearest, plain);
       measure<ThreadClock>(outward, sound);
       measure<WallClock>(together, fast);

@@ -26,7 +26,7 @@ int print_table(int argc, char** argv) {
   std::string name;
   app.add_option("--table", name, "which")->required()->check(CLI::IsMember(tables));
   app.add_option("--only", only.surfaces, "rows of these surfaces")->delimiter(',');
-  app.add_option("--target", only.target, "of the table `evaluations` this target");
+  app.add_option("--target", only.target, "kernels for this target: avx512, avx2, sse4.1");
   CLI11_PARSE(app, argc, argv);
   tables.at(name)();
   return 0;

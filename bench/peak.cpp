@@ -42,8 +42,10 @@ __attribute__((target("avx512f"))) float chains_of_16(float seed) {
 
 }  // namespace
 
-double peak_gflops() {
-  const bool wide = __builtin_cpu_supports("avx512f") != 0;
+double peak_a_cycle() { return __builtin_cpu_supports("avx512f") != 0 ? 64 : 32; }
+
+double peak_gflops(bool widest) {
+  const bool wide = widest && __builtin_cpu_supports("avx512f") != 0;
   if (!wide && !__builtin_cpu_supports("fma")) return 0;
   const double operations = 2.0 * chains * steps * (wide ? 16 : 8);
   double best = 0;

@@ -36,7 +36,7 @@ double peak_of(std::size_t threads) {
   std::vector<double> peaks(threads);
   {
     std::vector<std::jthread> all;
-    for (double& peak : peaks) all.emplace_back([&peak] { peak = peak_gflops(); });
+    for (double& peak : peaks) all.emplace_back([&peak] { peak = peak_gflops(only.widest()); });
   }
   return std::accumulate(peaks.begin(), peaks.end(), 0.0);
 }
@@ -45,6 +45,7 @@ void print_row(const Row& row, const std::shared_ptr<Workers>& workers) {
   RenderOptions options;
   options.workers = workers;
   options.steps = true;
+  options.kernel.target = only.target_name();
   const Scene drawn = scene(row.surface, options);
   Picture picture = drawn.renderer->frame(drawn.uniforms);  // makes the kernel in double, where it is needed
   std::vector<double> peaks, milliseconds;

@@ -34,6 +34,7 @@ Scene prepared(const std::string& surface, const Method& method, const std::shar
   options.tiles = method.way == Way::tiles;
   options.wish = {search_named(method.search), inclusion_named(method.inclusion)};
   options.kernel.outward = outward;
+  options.kernel.target = only.target_name();
   // The hand-written bisection stops there.
   if (method.way <= Way::affine_bisection) options.limits.epsilon = 0x1p-11;
   return scene(surface, options);
@@ -52,7 +53,7 @@ void print_row(const ByHand& known, const Method& method, const std::shared_ptr<
   milliseconds(outward, picture);  // makes the kernel in double, where it is needed
   std::vector<double> peaks, plain, sound, price;
   for (int round = 0; round < rounds; ++round) {
-    peaks.push_back(peak_gflops());
+    peaks.push_back(peak_gflops(only.widest()));
     plain.push_back(milliseconds(nearest, picture));
     sound.push_back(milliseconds(outward, picture));
     price.push_back(sound.back() / plain.back());

@@ -12,8 +12,10 @@ namespace imp::bench {
 // What is asked for, where it is not all of a table.
 struct Only {
   std::vector<std::string> surfaces;
-  std::string target;
+  std::string target;  // of the LLVM backend; the host's own if empty
 
+  std::string target_name() const { return target.empty() ? "host" : target; }
+  bool widest() const { return target.empty() || target == "avx512"; }
   bool skips(std::string_view surface) const {
     return !surfaces.empty() && std::ranges::find(surfaces, surface) == surfaces.end();
   }
