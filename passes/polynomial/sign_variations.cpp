@@ -4,20 +4,18 @@
 
 namespace imp {
 
-// The most variations so far in which the last sign is a plus, and a minus; below 0: there is none such.
-// Taking a sign that may be 0 for one never makes fewer.
+// The most variations so far in which the last sign is a plus, and a minus; -1: there was none such. Taking a sign that
+// may be 0 for one never makes fewer. Behind a certain minus what ended in a plus is at least one behind, and stays so.
 Expr most_sign_variations(std::span<const Interval> coefficients) {
   IMP_ASSERT(!coefficients.empty(), "a coefficient");
-  const Expr like = coefficients[0].hi, none = zero(like);
-  const Expr never = constant_like(like, -2 * static_cast<double>(coefficients.size()));
-  Expr plus = never, minus = never;
+  const Expr none = constant_like(coefficients[0].hi, -1);
+  Expr plus = none, minus = none;
   for (const Interval& b : coefficients) {
-    const Truth may_be_plus = !(b.hi <= 0), may_be_minus = !(b.nlo <= 0);
-    const Expr to_plus = max(max(plus, minus + 1.0), none), to_minus = max(max(minus, plus + 1.0), none);
-    plus = select(may_be_plus, to_plus, select(b.hi < 0, never, plus));
-    minus = select(may_be_minus, to_minus, select(b.nlo < 0, never, minus));
+    const Expr to_plus = max(plus, minus + 1.0), to_minus = max(minus, plus + 1.0);
+    plus = select(!(b.hi <= 0), to_plus, plus);
+    minus = select(!(b.nlo <= 0), to_minus, minus);
   }
-  return max(max(plus, minus), none);
+  return max(max(plus, minus), none + 1.0);
 }
 
 }  // namespace imp
