@@ -218,7 +218,8 @@ def main():
     for mutant in chosen:
         text = row(mutant, options)
         print(text, flush=True)
-        counts[next(word for word in counts if f"| {word}" in text[-80:])] += 1
+        last = text.rsplit("|", 2)[1].strip()
+        counts[next(word for word in counts if last.startswith(word))] += 1
     print(f"\n{len(chosen)} of {count} mutants: " + ", ".join(f"{n} {word}" for word, n in counts.items()))
 
 
