@@ -47,7 +47,8 @@ struct Way {
   }
 };
 
-// The bounds of f, whether it is defined, then the form of f: c, both ends of e, x1, ...; and the forms of the variables.
+// The bounds of f, whether it is defined, then the form of f: c, both ends of e, x1, ...; the forms of the variables; and
+// the limit of the form of f.
 Program extended(const Program& f, const Way& way) {
   Program result{.name = "form"};
   std::vector<Interval> sides;
@@ -80,6 +81,7 @@ Program extended(const Program& f, const Way& way) {
     output(result, names[i] + " c", wide(side.form->c));
     output(result, names[i] + " x", wide(side.form->x[i]));
   }
+  output(result, "limit", constant_like(Expr{&result.graph, result.inputs[0].id}, of_f.form->limit));
   EXPECT_EQ(verify(result), "");
   return result;
 }
@@ -114,6 +116,7 @@ void expect_enclosed(const Way& way, std::span<const double> v, const Point& at,
     }
     size += std::abs(v[7 + i]);
   }
+  ASSERT_TRUE(!(size + std::max(below, above) > v.back())) << where() << ", beyond " << v.back();
   if (!(size + below + above < HUGE_VALL)) return;                       // no form
   const long double slack = size * (way.type == f32 ? 1e-15L : 1e-14L);  // of this computation
   ASSERT_TRUE(value.lo - above - slack <= middle && middle <= value.hi + below + slack)
@@ -182,6 +185,7 @@ const Entangled entangled[] = {
     {"mod", IMP_OF(make(Op::mod, x, y + 5.0) - x)},
     {"steps", IMP_OF(make(Op::floor, x) + make(Op::ceil, y) + make(Op::sign, m))},
     {"if", IMP_OF(select(x < y, x* y, m))},
+    {"if both", IMP_OF(select(x < y && m < x, x* y, m))},
     {"fma", IMP_OF(make(Op::fma, x, y, -(x* m)))},
 };
 #undef IMP_OF
