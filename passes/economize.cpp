@@ -11,7 +11,7 @@
 namespace imp {
 namespace {
 
-constexpr std::size_t most_atoms_of_a_term = 32;  // in one term
+constexpr std::size_t most_atoms_of_a_term = 32;  // beyond, a term is looked at for each of them in vain
 
 using Polynomial = std::vector<BigInterval>;  // from the power 0, or T_0, on
 

@@ -162,14 +162,8 @@ class Pixel {
     return found;
   }
 
-  // Whether what is drawn, f over the domain, is f: beyond it may be another function.
-  Truth in_domain(const Segment& segment) const {
-    return !segment.exists || lies_in(segment, with_margin(space_->box));
-  }
-
   std::optional<Sight> look_at(std::size_t surface, std::size_t drawn) {
-    const Program& everywhere = model_.surfaces[surface].f;
-    const Program here = over_domain(model_, everywhere), f = simplified(here);
+    const Program f = drawn_function(model_, surface);
     const Method method = choose_method(f, options_.wish, options_.kernel);
     const auto whole = piece_for(f, drawn, *method.inclusion);
     if (!whole) return std::nullopt;
@@ -180,9 +174,10 @@ class Pixel {
     auto found = beams_ ? find_behind_beam(*on_piece, piece, *method.search)
                         : method.search->build(program_, *on_piece, options_.limits, diagnostics_);
     if (!found) return std::nullopt;
+    // Beyond the domain what is drawn may be another function than f, and bounds do not hold.
     Truth certain = on_piece->certain;
-    if (!(here == everywhere))
-      certain = certain && in_domain(segment_of(clip_.near, clip_.far)) && in_domain(segment);
+    if (space_ && beams_)
+      certain = certain && lies_in(segment_of(clip_.near, clip_.far), with_margin(space_->box));
     found->verdict = select(certain, found->verdict, constant_like(found->verdict, verdict_undecided));
 
     const Refined root = refine(program_, *on_piece, found->bracket);

@@ -152,8 +152,15 @@ bool check_view(const Model& model, const UniformValues& uniforms, Diagnostics& 
     if (!holds) diagnostics.error(culprit.span, message);
     return holds;
   };
+  // Squares of them are floats.
+  const auto within_floats = [&](const std::array<Setting, 3>& place) {
+    for (const Setting& coordinate : place)
+      demand(std::abs(numbers(coordinate)) <= 1e18, coordinate, "in a picture no coordinate is beyond 1e18");
+  };
   if (model.camera) {
     const Camera& camera = *model.camera;
+    within_floats(camera.from);
+    within_floats(camera.to);
     const auto [from, to] = std::pair(vector(numbers(camera.from)), vector(numbers(camera.to)));
     demand(glm::length(to - from) > 0, camera.to[0], "the camera looks at the very point where it is");
     if (camera.fov)
@@ -163,13 +170,17 @@ bool check_view(const Model& model, const UniformValues& uniforms, Diagnostics& 
   }
   if (model.domain) {
     if (const auto* box = std::get_if<Box>(&*model.domain)) {
+      within_floats(box->min);
+      within_floats(box->max);
       bool open = true;
       for (std::size_t i = 0; i < 3 && open; ++i)
         open = demand(numbers(box->min[i]) < numbers(box->max[i]), box->max[i],
                       "the domain is empty: this coordinate is not above that of the other corner");
     } else {
       const Sphere& sphere = std::get<Sphere>(*model.domain);
+      within_floats(sphere.center);
       demand(numbers(sphere.radius) > 0, sphere.radius, "the domain is empty: its radius is not above 0");
+      demand(!(numbers(sphere.radius) > 1e18), sphere.radius, "in a picture no radius is beyond 1e18");
     }
   }
   return !diagnostics.has_errors();

@@ -48,13 +48,16 @@ std::vector<Choice> inclusion_choices() {
 }
 
 // 2^-11, or a number.
+double read_power(std::string_view option, const std::string& text) {
+  const std::size_t hat = text.find('^');
+  if (hat == std::string::npos) return read_real(option, text);
+  return std::pow(read_real(option, std::string_view(text).substr(0, hat)),
+                  read_real(option, std::string_view(text).substr(hat + 1)));
+}
+
 double read_epsilon(const std::string& text) {
   constexpr std::string_view option = "--epsilon";
-  const std::size_t hat = text.find('^');
-  const double value = hat == std::string::npos
-                           ? read_real(option, text)
-                           : std::pow(read_real(option, std::string_view(text).substr(0, hat)),
-                                      read_real(option, std::string_view(text).substr(hat + 1)));
+  const double value = read_power(option, text);
   if (!(value > 0 && value <= 1)) refuse(option, fmt::format("'{}' is not above 0 and at most 1", text));
   return value;
 }
@@ -149,7 +152,7 @@ void add_economize(CLI::App& verb, std::optional<double>& tolerance) {
   add_value(verb, "--economize", "TOLERANCE",
             "enclose polynomials that are shorter than those of f, and this close to it, as 1e-6",
             [&tolerance](const std::string& text) {
-              tolerance = read_real("--economize", text);
+              tolerance = read_power("--economize", text);
               if (!(*tolerance > 0 && *tolerance < INFINITY))
                 refuse("--economize", fmt::format("'{}' is not above 0 and finite", text));
             });

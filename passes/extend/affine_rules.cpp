@@ -42,10 +42,10 @@ struct Factor {
 std::optional<Factor> factor(const Affine& a) {
   const Graph& graph = *a.c.graph;
   const auto value = graph.number(a.c.id), error = graph.number(affine::larger(a.e).id);
-  if (!value || !error || *value == 0) return std::nullopt;
+  if (!value || !error || *value == 0 || !std::isfinite(*value)) return std::nullopt;
   for (const Expr x : a.x)
     if (graph.number(x.id) != 0.0) return std::nullopt;
-  if (*error > affine::eps(a.c.type()) * std::abs(*value)) return std::nullopt;
+  if (!(*error <= affine::eps(a.c.type()) * std::abs(*value))) return std::nullopt;
   return Factor{*value, *error == 0};
 }
 
@@ -167,11 +167,12 @@ Value AffineRules::fma(const Value& a, const Value& b, const Value& c) const {
 Value AffineRules::div(const Value& a, const Value& b) const {
   const Interval range = rules_.div(a, b);
   if (const auto c = factor(*b.form)) {
-    const double inverse = 1 / c->value;
-    const bool narrow = a.range.hi.type() == f32;
-    return {affine::scale(*a.form, narrow ? static_cast<double>(static_cast<float>(inverse)) : inverse,
-                          c->exact && affine::is_power_of_two(c->value)),
-            range};
+    const Type type = a.range.hi.type();
+    const double exact = 1 / c->value,
+                 inverse = type == f32 ? static_cast<double>(static_cast<float>(exact)) : exact;
+    // Beyond, it is off by more than roundings of a normal number.
+    if (std::abs(inverse) >= affine::smallest_normal(type) && std::abs(inverse) < affine::safe(type))
+      return {affine::scale(*a.form, inverse, c->exact && affine::is_power_of_two(c->value)), range};
   }
   const Affine inverse = reciprocal(b);
   if (const auto c = factor(*a.form)) return {affine::scale(inverse, c->value, c->exact), range};

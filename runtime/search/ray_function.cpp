@@ -182,8 +182,7 @@ std::optional<RayFunction> ray_function(const Program& f, const Segment& segment
       .value_in_double = [ray](Expr s) { return ray->evaluate_in_double(ray->f_in_double, s); },
       .like = like,
       .exists = segment.exists,
-      .certain = near.error > 0 ? !segment.exists || lies_in(segment, with_margin(space->box))
-                                : truth_of(*like.graph, true),
+      .certain = space ? lies_in(segment, with_margin(space->box)) : truth_of(*like.graph, true),
       .degree = [ray](Diagnostics& d) { return ray->degree(d); },
       .coefficients = [ray](const Interval& s, Diagnostics& d) { return ray->coefficients(s, d); },
   };

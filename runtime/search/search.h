@@ -41,7 +41,7 @@ struct RayFunction {
   std::function<Expr(Expr s)> value_in_double;             // f in f64, whatever the type of s
   Expr like;                                               // any number of the kernel's type
   Truth exists;
-  Truth certain;  // false: the segment leaves the space in which `bound` holds, and nothing is proven
+  Truth certain;  // false: the segment leaves the space in which bounds hold, and nothing is proven
 
   // Where f is a polynomial in x, y, z: its degree in s at most, and enclosures of its coefficients in Bernstein
   // form over the piece s, in the type of its ends. Errors point at what makes f none, or say that it has too many

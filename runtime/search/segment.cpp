@@ -64,11 +64,15 @@ Segment segment_of_ray(const std::array<Expr, 3>& o, const std::array<Expr, 3>& 
 
 Segment segment_of_numbers(const std::array<Expr, 3>& o, const std::array<Expr, 3>& d, Expr near, Expr far) {
   Segment segment;
+  Truth finite = truth_of(*near.graph, true);
   for (std::size_t i = 0; i < 3; ++i) {
     segment.origin[i] = o[i] + near * d[i];
     segment.direction[i] = (far - near) * d[i];
-    segment.origin_bounds[i] = point(segment.origin[i]);
-    segment.direction_bounds[i] = point(segment.direction[i]);
+    finite = finite && is_finite(segment.origin[i]) && is_finite(segment.direction[i]);
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    segment.origin_bounds[i] = where(finite, point(segment.origin[i]));
+    segment.direction_bounds[i] = where(finite, point(segment.direction[i]));
     segment.wide_origin_bounds[i] = widened(segment.origin_bounds[i]);
     segment.wide_direction_bounds[i] = widened(segment.direction_bounds[i]);
   }

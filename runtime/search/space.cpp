@@ -32,7 +32,7 @@ std::vector<Range> ranges_along_ray(const SpaceBounds& space, const Program& f) 
 }
 
 Truth lies_in(const Segment& segment, const SpaceBounds& space) {
-  Truth all = truth_of(*segment.exists.graph, true);
+  Truth all = truth_of(*segment.exists.graph, true);  // so far
   const auto require = [&](Expr value, double most) {
     all = all && value <= -rounded_up(*value.graph, value.type(), -most);
   };
@@ -43,7 +43,7 @@ Truth lies_in(const Segment& segment, const SpaceBounds& space) {
     require(add_up(begin.hi, way.hi), space[i].hi);
     require(add_up(begin.nlo, way.nlo), -space[i].lo);
   }
-  return all;
+  return all || !segment.exists;
 }
 
 }  // namespace imp

@@ -22,7 +22,7 @@ std::vector<Range> ranges_in(const SpaceBounds& space, const Program& f);
 // And of those of along_ray(f): s, o, d, uniforms. Both ends of the segment lie in `space`.
 std::vector<Range> ranges_along_ray(const SpaceBounds& space, const Program& f);
 
-// Whether all of a segment lies in a box; not where that is not known.
+// Whether all of a segment, if there is one, lies in a box; not where that is not known.
 Truth lies_in(const Segment& segment, const SpaceBounds& space);
 
 struct SearchSpace {

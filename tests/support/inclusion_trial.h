@@ -45,6 +45,8 @@ inline std::vector<OpForm> op_forms() {
       {"mul", two(Op::mul), {-20, 20}, {0}},
       {"square", [](Expr x, Expr) { return x * x; }, {-20, 20}, {0}},
       {"div", two(Op::div), {-20, 20}, {0}},
+      {"div-by-1e40", [](Expr x, Expr) { return x / 1e40; }, {-3e38, 3e38}},
+      {"mul-by-1e40", [](Expr x, Expr) { return x * 1e40; }},
       {"recip", [](Expr x, Expr) { return 1.0 / x; }},
       {"fma", [](Expr x, Expr y) { return fma(x, y, constant_like(x, 3)); }},
       {"neg", one(Op::neg)},

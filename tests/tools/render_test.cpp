@@ -51,6 +51,15 @@ std::string picture_of(const test::DecodedImage& image) {
   return text;
 }
 
+TEST(Render, refuses_places_whose_squares_are_no_floats) {
+  const Folder folder;
+  const CommandAnswer answer = test::imp({"render", "-", "-o", folder / "s.png", "--size=8x8"},
+                                         "x = y\ndomain sphere(radius: 2e18)\n");
+  EXPECT_EQ(answer.exit, 1);
+  EXPECT_NE(answer.err.find("2:23: error: in a picture no radius is beyond 1e18"), std::string::npos)
+      << answer.err;
+}
+
 TEST(Render, economises_over_a_known_domain) {
   const Folder folder;
   const std::string f = "param p = 2\nx + x^12/1e12 = y\ndomain box((-p, -2, -2), (2, 2, 2))\n";

@@ -5,7 +5,7 @@
 namespace imp {
 namespace {
 
-constexpr double near = 0.5 * certified_length;  // the root is to be enclosed in a piece as short
+constexpr double close = 0.5 * certified_length;  // the root is to be enclosed in a piece as short
 
 // One step of Newton's method with bisection, from s in [lo, hi].
 struct Step {
@@ -64,10 +64,12 @@ Expr corrected(const RayFunction& f, const Bracket& bracket, const Approach& sta
 
 // Looks at both sides of s.
 Refined probe(const RayFunction& f, const Bracket& bracket, Expr s) {
-  const Expr lo = max(s - 0.5 * near, bracket.a), hi = min(s + 0.5 * near, bracket.b);
+  const Expr lo = max(s - 0.5 * close, bracket.a), hi = min(s + 0.5 * close, bracket.b);
   const Expr at_lo = f.value_in_double(lo), at_hi = f.value_in_double(hi);
   const Expr sign_a = to(f64, bracket.sign_a);
-  const Expr share = to(f32, at_lo / (at_lo - at_hi));
+  const Expr secant = to(f32, at_lo / (at_lo - at_hi));
+  const Expr share =
+      select(0 <= secant && secant <= 1, secant, constant_like(secant, 0.5));  // f may be infinite
   return {lo + share * (hi - lo), bracket.changes && at_lo * sign_a > 0 && at_hi * sign_a < 0};
 }
 
@@ -83,7 +85,7 @@ Refined polish(Program& program, const RayFunction& f, const Bracket& bracket, c
   const Expr hi = loop.state("hi", b);
   const Expr s = loop.state("s", start.s);
   const Expr last = loop.state("last", b - a);
-  const Expr reach = loop.state("reach", constant_like(a, 0.5 * near));
+  const Expr reach = loop.state("reach", constant_like(a, 0.5 * close));
   const Expr best = loop.state("best", start.s);
   const Truth found = loop.state("found", truth_of(program.graph, false));
 
@@ -92,8 +94,8 @@ Refined polish(Program& program, const RayFunction& f, const Bracket& bracket, c
   const Expr newton = to(f32, to(f64, s) - value / to(f64, start.slope));
   const Step step = step_from(s, lo, hi, last, right, newton);
   const Expr length = abs(step.next - s);
-  const Truth enclosed = step.hi - step.lo <= near;
-  const Truth arrives = step.by_newton && length < 0.25 * near && !enclosed;
+  const Truth enclosed = step.hi - step.lo <= close;
+  const Truth arrives = step.by_newton && length < 0.25 * close && !enclosed;
   const Expr other_side = step.next + select(right, reach, -reach);
   const Truth inside = step.lo < other_side && other_side < step.hi;
   loop.next(lo, step.lo);

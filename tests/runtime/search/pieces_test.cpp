@@ -23,7 +23,8 @@ class Stack {
     pieces.next(push, !push, -i, 0.5 - i);
     const Expr next = i + 1.0;
     loop.next(i, next);
-    const Expr any = loop.state("any", zero(i)), start = loop.state("start", i), end = loop.state("end", i);
+    const Expr any = loop.state("any", zero(i)), start = loop.state("start", zero(i));
+    const Expr end = loop.state("end", zero(i));
     loop.next(any, select(pieces.any(), one(i), zero(i)));  // as it was before this step
     loop.next(start, pieces.start());
     loop.next(end, pieces.end());
