@@ -20,8 +20,10 @@ Expr sum_of_product(Expr a, Expr b, Expr c) {
   return is_zero(c) ? a * b : imp::fma(a, b, c);
 }
 
+// What may have overflowed is never bounded again.
+double limit_or_none(Type type, double limit) { return limit < safe(type) ? limit : infinity; }
 // What limits grow by in a rule, all roundings included.
-double grown(double limit) { return 1.001 * limit + 1e-20; }
+double grown(Type type, double limit) { return limit_or_none(type, 1.001 * limit + 1e-20); }
 
 Expr plus_linear(Expr sum, const Affine& a) {
   for (const Expr x : a.x) sum = add_up(sum, abs(x));
@@ -64,7 +66,7 @@ Affine joined(const Affine& a, const Affine& b, const Ends& error_of_b, Join joi
   Affine result{join(a.c, b.c),
                 {},
                 plus(a.e, error_of_b),
-                grown(a.limit + b.limit),
+                grown(a.c.type(), a.limit + b.limit),
                 std::min(a.spare, flushes) + std::min(b.spare, flushes),
                 a.signed_errors};
   Expr charged = is_zero(a.c) || is_zero(b.c) ? zero(a.c) : abs(result.c);
@@ -109,7 +111,7 @@ Affine constant(Expr like, const Shape& shape, double value, double error) {
   Affine result{constant_like(like, value),
                 std::vector(shape.symbols, zero(like)),
                 both(zero(like)),
-                grown(std::abs(value) + error),
+                grown(like.type(), std::abs(value) + error),
                 0,
                 shape.signed_errors};
   if (error > 0) {
@@ -123,8 +125,9 @@ Affine constant(Expr like, const Shape& shape, double value, double error) {
 // c is.
 Affine of_interval(const Interval& a, const Shape& shape, std::optional<std::size_t> symbol, double limit) {
   const Expr none = zero(a.hi), spare = constant_like(a.hi, reserve(a.hi.type()));
-  Affine result{
-      a.hi, std::vector(shape.symbols, none), both(spare), grown(limit), flushes - 1, shape.signed_errors};
+  Affine result{a.hi,        std::vector(shape.symbols, none),
+                both(spare), grown(a.hi.type(), limit),
+                flushes - 1, shape.signed_errors};
   if ((-a.hi).id == a.nlo.id) return result;  // a point
   result.c = 0.5 * (a.hi - a.nlo);
   const Expr distance = max(add_up(a.hi, -result.c), add_up(a.nlo, result.c));
@@ -178,10 +181,9 @@ Affine mul(const Affine& a, const Affine& b) {
   Affine result{product(a.c, b.c),
                 {},
                 both(mul_up(all, constant_like(all, 2.5 * eps(type)))),
-                grown(a.limit * b.limit),
+                grown(type, a.limit * b.limit),
                 flushes - 3 * static_cast<int>(parts(a)),
                 a.signed_errors};
-  if (std::isnan(result.limit)) result.limit = infinity;
   for (std::size_t i = 0; i < a.x.size(); ++i)
     result.x.push_back(sum_of_product(a.c, b.x[i], product(b.c, a.x[i])));
   if (diagonal && !a.signed_errors) {
@@ -213,7 +215,7 @@ Affine square(const Affine& a) {
   Affine result{sum_of_product(a.c, a.c, shift),
                 {},
                 plus_multiple(rest, all, both(constant_like(all, 2.5 * eps(type)))),
-                grown(a.limit * a.limit),
+                grown(type, a.limit * a.limit),
                 flushes - 3 * static_cast<int>(parts(a)),
                 a.signed_errors};
   for (const Expr x : a.x) result.x.push_back(product(twice, x));
@@ -235,7 +237,7 @@ Affine cube(const Affine& a) {
   Affine result{product(a.c, a.signed_errors ? cc : imp::fma(rr, constant_like(rr, 1.5), cc)),
                 {},
                 both(mul_up(all, constant_like(all, 4 * eps(type)))),
-                grown(a.limit * a.limit * a.limit),
+                grown(type, a.limit * a.limit * a.limit),
                 flushes - 8 * static_cast<int>(parts(a)),
                 a.signed_errors};
   for (const Expr x : a.x) result.x.push_back(product(slope, x));
@@ -253,9 +255,8 @@ Affine scale(const Affine& a, double value, bool exact) {
   const Type type = a.c.type();
   const Expr factor = constant_like(a.c, value);
   const double grow = std::abs(value) * (exact ? 1 : 1 + 3 * eps(type));
-  Affine result{product(a.c, factor),  {},      value < 0 ? turned(a.e) : a.e,
-                grown(grow * a.limit), a.spare, a.signed_errors};
-  if (std::isnan(result.limit)) result.limit = infinity;
+  Affine result{product(a.c, factor),        {},      value < 0 ? turned(a.e) : a.e,
+                grown(type, grow * a.limit), a.spare, a.signed_errors};
   for (const Expr x : a.x) result.x.push_back(product(x, factor));
   const bool shrinks = !power_of_two || std::abs(value) < 1;
   result.e = plus_multiple(both(constant_like(a.c, shrinks ? reserve(type) : 0)),
@@ -278,7 +279,7 @@ Affine line(const Affine& a, Expr factor, const Ends& rest, double limit) {
       sum_of_product(factor, a.c, m),
       {},
       plus_multiple(plus_product(around, factor, a.e), all, both(constant_like(all, 2.5 * eps(type)))),
-      limit,
+      limit_or_none(type, limit),
       flushes - 3 * static_cast<int>(parts(a)),
       a.signed_errors};
   for (const Expr x : a.x) result.x.push_back(product(factor, x));

@@ -146,6 +146,8 @@ const Entangled entangled[] = {
     {"scaled beyond floats", IMP_OF(x * 1e40 / 1e40 - y * 3e-41 * 1e41 + m / 1e39)},
     {"scaled beyond doubles",
      IMP_OF(x * 1e200 * 1e200 / power(constant_like(x, 1e200), 2) - y / 1e305 / 1e-305)},
+    {"doubled beyond floats", IMP_OF(x * 0x1p100 * 0x1p100 * 0x1p-100 * 0x1p-100 + y)},
+    {"doubled beyond doubles", IMP_OF(x * 0x1p1000 * 0x1p1000 * 0x1p-1000 * 0x1p-1000 - y)},
     {"nearly no factor", IMP_OF(1e30 * x / 2e38 + y / 1e-39 * 1e-39)},
     {"square", IMP_OF((x - y) * (x - y))},
     {"square of one", IMP_OF(x* x - x)},
