@@ -22,7 +22,9 @@ struct Counts {
 };
 
 std::string width(const test::InclusionCount& count) {
-  return count.width.total() == 0 ? "?" : fmt::format("{:.3f}", count.width.median());
+  if (count.width.total() == 0) return "?";
+  const double median = count.width.median();
+  return median < 1000 ? fmt::format("{:.3f}", median) : fmt::format("{:.2g}", median);
 }
 
 std::string row_text(const test::OpForm& op, Type type, std::uint64_t samples) {
