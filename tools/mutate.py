@@ -2,7 +2,8 @@
 """Changes one place of the inclusion arithmetic at a time and sees whether a test falls over it: mutate.py --sample 40
 
 Mutants are made in a copy of the tree, build/mutate/tree, in which there are no other tests than those of forms: of
-tests/passes and, with --thorough, for what is still alive, those of ops and surfaces in tests/runtime. Prints a table in
+tests/passes and, with --thorough, for what is still alive, those of ops and surfaces in tests/runtime; for the rows of
+ir/ops.def that of what ops mean on every backend. Prints a table in
 Markdown, row by row. Finished rows lie in build/mutate/done, by the text that was changed, so a run can be stopped and
 taken up again. What lives is to be looked at: it changes nothing that is promised, or a test is missing.
 """
@@ -12,6 +13,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 WORK = ROOT / "build" / "mutate"
 TREE = WORK / "tree"
 FOLDERS = ["passes/extend", "passes/polynomial"]
+OPS, OPS_TESTS = "ir/ops.def", [("test_backends", ["tests/backends/agreement_test.cpp"])]
 TESTS = [  # an executable, and the suites: those of these folders or files
     ("test_passes", ["tests/passes/extend", "tests/passes/polynomial"]),
     ("test_runtime", ["tests/runtime/inclusion_ops_test.cpp", "tests/runtime/inclusion_test.cpp"]),
@@ -85,8 +87,23 @@ def mutants(text):
     return found
 
 
+def op_mutants(text):
+    """Of a row of an op its spelling in LLVM or in GLSL, or its meaning, is that of the next row of this arity and kind."""
+    row = re.compile(r'^OP\((\w+), (\d), (\w+), ("\w*"), ("[^"]*"), (.*)\)$', re.M)
+    rows = [match for match in row.finditer(text) if match.group(3) != "elementary"]
+    found = []
+    for match in rows:
+        kin = [other for other in rows if other.group(2, 3) == match.group(2, 3)]
+        other = kin[(kin.index(match) + 1) % len(kin)]
+        for column, what in ((4, "LLVM"), (5, "GLSL"), (6, "meaning")):
+            if match.group(column) != other.group(column) and '""' not in (match.group(column), other.group(column)):
+                found.append((*match.span(column), other.group(column), what))
+    return found
+
+
 def all_mutants(only):
-    result = []
+    ops = (ROOT / OPS).read_text()
+    result = [(OPS, *mutant) for mutant in op_mutants(ops)] if re.search(only, OPS) else []
     for folder in FOLDERS:
         for path in sorted((ROOT / folder).glob("*.cpp")):
             name = path.relative_to(ROOT).as_posix()
@@ -110,7 +127,7 @@ def suites(places):
 def copy_tree():
     files = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=ROOT,
                            capture_output=True, text=True, check=True).stdout.split("\0")
-    wanted = tuple(place for _, places in TESTS for place in places)
+    wanted = tuple(place for _, places in TESTS + OPS_TESTS for place in places)
     for name in filter(None, files):
         source, target = ROOT / name, TREE / name
         if re.match(r"tests/(?!prove/).*\.cpp$", name) and not name.startswith(wanted):
@@ -147,9 +164,9 @@ def build(target, jobs):
     return run(["cmake", "--build", "build/release", "-j", str(jobs), "--target", target], 3600)
 
 
-def verdict(options):
+def verdict(options, tests):
     """"killed by …", "alive" or "does not compile", of the tree as it stands."""
-    for executable, places in TESTS if options.thorough else TESTS[:1]:
+    for executable, places in tests:
         if build(executable, options.jobs)[0] != 0:
             return "does not compile"
         status, output = run([f"build/release/{executable}", "--gtest_fail_fast", "--gtest_brief=1",
@@ -158,6 +175,10 @@ def verdict(options):
         if status != 0:
             return "killed by " + (failed.group(1) if failed else "time" if status == 124 else "a crash")
     return "alive"
+
+
+def tests_of(name, options):
+    return OPS_TESTS if name == OPS else TESTS if options.thorough else TESTS[:1]
 
 
 def shown(text):
@@ -174,7 +195,7 @@ def row(mutant, options):
     (TREE / name).write_text(changed)
     began = time.monotonic()
     try:
-        found = verdict(options)
+        found = verdict(options, tests_of(name, options))
     finally:
         (TREE / name).write_text(text)
     line = text.count("\n", 0, start) + 1
@@ -211,8 +232,9 @@ def main():
 
     copy_tree()
     run(["cmake", "--preset", "release", "-DIMP_LLVM_SHARED=ON"], 600)
-    if verdict(options) != "alive":
-        raise SystemExit("the tests do not pass as things are")
+    for tests in {tests_of(name, options)[0][0]: tests_of(name, options) for name, *_ in chosen}.values():
+        if verdict(options, tests) != "alive":
+            raise SystemExit("the tests do not pass as things are")
     print("| place | what | before | after | |\n| --- | --- | --- | --- | --- |")
     counts = {"killed": 0, "alive": 0, "does not compile": 0}
     for mutant in chosen:

@@ -144,6 +144,18 @@ TEST(Forms, intervals_stand_in_where_a_form_does_not_hold) {
     }
 }
 
+// Where the second derivative has no value at all: at a place where the first one still is.
+TEST(Forms, a_place_without_a_second_derivative_is_enclosed) {
+  const Formula formula = [](Expr x, Expr y) { return make(Op::pow, x, constant_like(x, 1.5)) + y * y; };
+  for (const Inclusion& inclusion : inclusions()) {
+    if (may_refuse(inclusion, program_of(formula))) continue;
+    const Bounds bounds = Enclosed(formula, *inclusion.enclose).over({0, 0}, {1, 2});
+    EXPECT_LE(bounds.lo, 1) << inclusion.name;
+    EXPECT_GE(bounds.hi, 4) << inclusion.name;
+    EXPECT_TRUE(bounds.hi < infinity) << inclusion.name;
+  }
+}
+
 TEST(Forms, a_corner_of_the_slope_bends_no_parabola) {
   const Formula formulas[] = {
       [](Expr x, Expr y) { return x * abs(x) + y; },
