@@ -218,8 +218,8 @@ std::optional<Cost> cost(const Program& f, const Column& column, const std::stri
 
 using Costs = std::array<std::optional<Cost>, std::size(columns)>;
 
-void print_head(std::string_view first) {
-  fmt::print("| {} |", first);
+void print_head() {
+  fmt::print("| surface |");
   for (const Column& column : columns) fmt::print(" {} |", column.name);
   fmt::print("\n| --- |");
   for ([[maybe_unused]] const Column& column : columns) fmt::print(" ---: |");
@@ -260,7 +260,7 @@ void print_evaluations_table() {
     if (!target.runs_here || target.name == "host") continue;
     if (!only.target.empty() && target.name != only.target) continue;
     fmt::print("\n{}\n\n", target.name);
-    print_head("surface");
+    print_head();
     std::vector<std::pair<std::string, Costs>> measured;
     for (const std::string& name : example_names()) {
       if (only.skips(name)) continue;
@@ -275,7 +275,7 @@ void print_evaluations_table() {
     }
     const unsigned lanes = target.register_bits / 32;
     fmt::print("\nTo nearest, by what hand-written code took times {}\n\n", 16 / lanes);
-    print_head("surface");
+    print_head();
     for (const auto& [name, costs] : measured)
       if (const ByHand* known = by_hand(name)) print_beside(*known, costs, lanes);
   }

@@ -15,8 +15,8 @@
 //    and it is not      if f goes away from 0 at the start.
 //
 // Pieces on which neither is known, and which are as short as epsilon or monotone with f(c) about 0, form a run, as in
-// isolate.cpp. The next proven sign closes it; while a run is open gaps are looked at like pieces. The mean value theorem asks for f and f' continuous on X;
-// elsewhere pieces are halved. Undecided where f touches zero.
+// isolate.cpp. The next proven sign closes it; while a run is open gaps are looked at like pieces. The mean value
+// theorem asks for f and f' continuous on X; elsewhere pieces are halved. Undecided where f touches zero.
 #include "ir/loop.h"
 #include "passes/extend/half_lines.h"
 #include "runtime/search/parts/pieces.h"

@@ -4,6 +4,7 @@
 
 namespace imp {
 
+// A thousandth is what the rounding of places comes to from about a thousand sizes of the box away.
 SpaceBounds with_margin(const SpaceBounds& space) {
   SpaceBounds result = space;
   for (Range& axis : result) {
@@ -20,11 +21,13 @@ std::vector<Range> ranges_in(const SpaceBounds& space, const Program& f) {
   return ranges;
 }
 
+// A way leads from one place in the box with its margin to another.
 std::vector<Range> ranges_along_ray(const SpaceBounds& space, const Program& f) {
+  const SpaceBounds places = with_margin(space);
   std::vector<Range> result{{0, 1}};
-  for (const Range& axis : with_margin(space)) result.push_back(axis);
-  for (const Range& axis : space) {
-    const double width = 1.01 * (axis.hi - axis.lo) + 1e-3 * (std::abs(axis.lo) + std::abs(axis.hi));
+  result.insert(result.end(), places.begin(), places.end());
+  for (const Range& axis : places) {
+    const double width = 1.001 * (axis.hi - axis.lo);
     result.push_back({-width, width});
   }
   result.resize(result.size() + f.inputs.size() - 3, everything);

@@ -132,6 +132,29 @@ TEST(OverDomain, proves_nothing_of_what_overflows) {
   }
 }
 
+// Whatever segment lies in the box with its margin, its numbers lie in the ranges that bounds rely on.
+TEST(OverDomain, ranges_hold_every_segment_within_the_margin) {
+  Random random(2);
+  Program f{.name = "f"};
+  for (const char* name : {"x", "y", "z"}) add_input(f, name, f64, Rate::ray);
+  for (int i = 0; i < 1000; ++i) {
+    SpaceBounds space;
+    for (Range& axis : space) {
+      axis.lo = random.between(-10, 10);
+      axis.hi = axis.lo + std::ldexp(random.between(1, 2), static_cast<int>(random.below(8)) - 4);
+    }
+    const auto ranges = ranges_along_ray(space, f);
+    ASSERT_EQ(ranges.size(), 7U);
+    const SpaceBounds places = with_margin(space);
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_LE(ranges[1 + k].lo, places[k].lo);
+      EXPECT_GE(ranges[1 + k].hi, places[k].hi);
+      EXPECT_GE(ranges[4 + k].hi, places[k].hi - places[k].lo);
+      EXPECT_LE(ranges[4 + k].lo, places[k].lo - places[k].hi);
+    }
+  }
+}
+
 // A segment of f32 numbers whose ends lie about those of the box.
 TEST(OverDomain, knows_which_segments_lie_in_a_box) {
   Random random(1);

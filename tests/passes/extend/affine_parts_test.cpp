@@ -47,6 +47,13 @@ const AffineOp ops[] = {
 };
 
 // AF1 and AF2.
+void output_parts(Program& program, const Affine& form) {
+  output(program, "c", form.c);
+  for (const Expr x : form.x) output(program, "x", x);
+  output(program, "e nlo", form.e.nlo);
+  output(program, "e hi", form.e.hi);
+}
+
 class AffineParts : public testing::TestWithParam<std::tuple<AffineOp, bool>> {};
 
 TEST_P(AffineParts, charge_every_rounding) {
@@ -58,10 +65,7 @@ TEST_P(AffineParts, charge_every_rounding) {
   };
   const Affine a = form("a"), b = form("b");
   const Affine result = op.build(a, b, input(program, "k"));
-  output(program, "c", result.c);
-  for (const Expr x : result.x) output(program, "x", x);
-  output(program, "e nlo", result.e.nlo);
-  output(program, "e hi", result.e.hi);
+  output_parts(program, result);
   const auto up = interpret(upward(program)), down = interpret(upward(rounded_down(program)));
 
   Random random(0xaf1);
@@ -135,10 +139,7 @@ TEST_P(SignedErrors, hold_whatever_the_operands_hold) {
   };
   const Affine a = form("a"), b = form("b");
   const Affine result = op.build(a, b, input(program, "k"));
-  output(program, "c", result.c);
-  for (const Expr x : result.x) output(program, "x", x);
-  output(program, "e nlo", result.e.nlo);
-  output(program, "e hi", result.e.hi);
+  output_parts(program, result);
   const auto up = interpret(upward(program)), down = interpret(upward(rounded_down(program)));
 
   Random random(0xaf2);
