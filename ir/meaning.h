@@ -24,23 +24,24 @@ T mod(T a, T b) {
   return a - b * std::floor(a / b);
 }
 
-// a^n by the products of ir/addition_chain.h, each rounded; 1/a^-n for n < 0; 1 for n = 0. `n` is a
-// constant integer of magnitude at most 2^20.
+// a^n by the products of ir/addition_chain.h, each rounded; 1/a^-n for n < 0; for n = 0 it is 1, but NaN
+// at NaN. `n` is a constant integer of magnitude at most 2^20.
 template <class T>
 T powi(T a, T n) {
   const auto magnitude = static_cast<std::uint32_t>(std::abs(n));
-  if (magnitude == 0) return T(1);
+  if (magnitude == 0) return std::isnan(a) ? a : T(1);
   const T power = positive_power(a, magnitude, [](T left, T right) { return left * right; });
   return n < 0 ? T(1) / power : power;
 }
 
 // The derivative of order `order` of the Chebyshev polynomial T_n, by the doublings of ir/chebyshev.h. `n`
-// and `order` are constant integers, 0 <= order <= n <= 2^20, order <= 8; NaN for others. For |x| <= 1, T_n
-// is off by at most n^2 ulps of 1.
+// and `order` are constant integers, 0 <= order <= n <= 2^20, order <= 8; NaN for others, and at NaN. For
+// |x| <= 1, T_n is off by at most n^2 ulps of 1.
 template <class T>
 T chebyshev(T x, T n, T order) {
   const bool legal = 0 <= order && order <= n && n <= T(largest_chebyshev_degree);
-  if (!legal || order > T(largest_chebyshev_order)) return std::numeric_limits<T>::quiet_NaN();
+  if (!legal || order > T(largest_chebyshev_order) || std::isnan(x))
+    return std::numeric_limits<T>::quiet_NaN();
   return imp::chebyshev(x, static_cast<unsigned>(n), static_cast<unsigned>(order),
                         [](double c) { return static_cast<T>(c); });
 }

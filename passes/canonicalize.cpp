@@ -26,7 +26,6 @@ bool has_exact_inverse(double k) {
 }
 
 constexpr AlgebraRule rules[] = {
-    {"powi a 0", "1"},
     {"powi a 1", "a"},
     {"powi neg a k", "powi a k", only_squares},
     {"powi abs a k", "powi a k", only_squares},

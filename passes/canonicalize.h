@@ -1,5 +1,5 @@
 // Canonicalisation: writes what is the same real function in one way, so that hash-consing finds
-// common sub-expressions and later passes see few forms: x^1 and x^0, double negation, a - (-b),
+// common sub-expressions and later passes see few forms: x^1, double negation, a - (-b),
 // -a + b, products and quotients with the constants 1 and -1, comparisons with their operands
 // ordered, nested selects on one condition. Preserves bits.
 #pragma once

@@ -6,7 +6,7 @@
 namespace imp {
 
 // Every `chebyshev` as the doublings of ir/chebyshev.h, shared between degrees, and between a polynomial
-// and its derivatives. Preserves bits.
+// and its derivatives; those of degree 0 as a constant times x^0. Preserves bits.
 Program reduce_chebyshev(const Program& program);
 
 }  // namespace imp

@@ -76,10 +76,10 @@ struct Rules {
   Known neg(const Known& a) { return lift(mpfi_neg, a); }
   Known abs(const Known& a) { return lift(mpfi_abs, a); }
   Known min(const Known& a, const Known& b) {
-    return of_both(a, b, [](auto& x, auto& y) { return imp::min(x, y); });
+    return or_second(a, b, [](auto& x, auto& y) { return imp::min(x, y); });
   }
   Known max(const Known& a, const Known& b) {
-    return of_both(a, b, [](auto& x, auto& y) { return imp::max(x, y); });
+    return or_second(a, b, [](auto& x, auto& y) { return imp::max(x, y); });
   }
   Known sqrt(const Known& a) { return lift(mpfi_sqrt, within(a, 0, infinity)); }
   Known cbrt(const Known& a) { return lift(mpfi_cbrt, a); }
@@ -215,10 +215,13 @@ struct Rules {
     return likely;
   }
 
+  // b where a has no value (ir/ops.def), and so perhaps b where a may have none.
   template <class F>
-  static Known of_both(const Known& a, const Known& b, F f) {
-    if (a.empty || b.empty) return nothing();
-    return checked({f(a.x, b.x), false, a.continuous && b.continuous});
+  Known or_second(const Known& a, const Known& b, F f) const {
+    if (b.empty) return nothing();
+    if (a.empty) return b;
+    const BigInterval both = f(a.x, b.x);
+    return checked({a.continuous || likely ? both : hull(both, b.x), false, a.continuous && b.continuous});
   }
 
   // A comparison that holds for all values, or for some. One without a value is false.

@@ -13,7 +13,7 @@ namespace imp {
 namespace {
 
 Expr power(Expr a, double n) {
-  if (n == 0) return one(a);
+  if (n == 0) return select(equal(a, a), one(a), a);  // NaN stays
   const Expr product = positive_power(a, static_cast<std::uint32_t>(std::abs(n)), std::multiplies<Expr>());
   return n < 0 ? 1.0 / product : product;
 }

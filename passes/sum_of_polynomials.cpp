@@ -1,5 +1,6 @@
 #include "passes/sum_of_polynomials.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "ir/chebyshev.h"
@@ -85,6 +86,7 @@ std::size_t degree(const View& a) {
 
 struct ViewRules {
   using Value = View;
+  const Graph& graph;
 
   View add(const View& a, const View& b) { return a + b; }
   View sub(const View& a, const View& b) { return a - b; }
@@ -99,18 +101,25 @@ struct ViewRules {
     const auto n = integer(exponent);
     if (!a || !n || *n < 0 || static_cast<double>(degree(a)) * *n > largest_polynomial_degree)
       return std::nullopt;
-    View power = constant(1);
-    for (int i = 0; i < *n && power; ++i) power = power * a;
+    if (*n == 0) return unit(*a);
+    View power = a;
+    for (int i = 1; i < *n && power; ++i) power = power * a;
     return power;
   }
   View chebyshev(const View& a, const View& n, const View& order) {
     const auto d = integer(n);
     if (!a || !d || integer(order) != 0.0) return std::nullopt;
     if (static_cast<double>(degree(a)) * *d > largest_polynomial_degree) return std::nullopt;
+    if (*d == 0) return unit(*a);
     return imp::chebyshev(a, static_cast<unsigned>(*d), 0, [](double c) { return View(constant(c)); });
   }
 
  private:
+  // a^0: 1 where a has a value, which only inputs have everywhere.
+  View unit(const SumOfPolynomials& a) const {
+    const auto is_input = [&](const auto& part) { return graph[part.first].op == Op::input; };
+    return std::ranges::all_of(a.parts, is_input) ? View(constant(1)) : std::nullopt;
+  }
   static std::optional<double> integer(const View& a) {
     if (!a || !a->parts.empty() || !a->constant.is_point()) return std::nullopt;
     return mpfr_get_d(a->constant.lo(), MPFR_RNDN);
@@ -122,7 +131,7 @@ struct ViewRules {
 std::vector<std::optional<SumOfPolynomials>> sums_of_polynomials(const Program& f, std::size_t most_atoms) {
   const Graph& graph = f.graph;
   std::vector<View> views(graph.size());
-  ViewRules rules;
+  ViewRules rules{graph};
   std::vector<View> args;
   for (std::uint32_t i = 0; i < graph.size(); ++i) {
     const Id id{i};

@@ -241,11 +241,7 @@ Interval IntervalRules::mod(const Interval& a, const Interval& b) const {
 Interval IntervalRules::powi(const Interval& a, const Interval& exponent) const {
   const auto n = constant_point(exponent);
   IMP_ASSERT(n.has_value(), "a constant exponent");
-  if (*n == 0) {  // 1, whatever a is
-    Interval unit = point(one(a.hi), {true, true});
-    unit.continuous = a.continuous;
-    return unit;
-  }
+  if (*n == 0) return with(a, -one(a.hi), one(a.hi), {true, true});
   const Interval positive = power(a, static_cast<unsigned>(std::abs(*n)));
   return *n > 0 ? positive : div(point(one(a.hi), {true, true}), positive);
 }

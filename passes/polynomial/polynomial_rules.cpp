@@ -136,9 +136,12 @@ Polynomial PolynomialRules::neg(const Polynomial& a) const {
 Polynomial PolynomialRules::powi(const Polynomial& a, const Polynomial&) const { return power(a, exponent); }
 
 Polynomial PolynomialRules::power(const Polynomial& a, std::uint32_t n) const {
-  if (n == 0) {  // 1, whatever a is
+  if (n == 0) {  // 1, where a has a value
     Interval unit = integer(none_.hi, 1);
-    for (const auto& [powers, value] : a) unit.continuous = unit.continuous && value.continuous;
+    for (const auto& [powers, value] : a) {
+      unit.empty = unit.empty || value.empty;
+      unit.continuous = unit.continuous && value.continuous;
+    }
     return polynomial(unit);
   }
   if (n == 1 || a.empty()) return a;

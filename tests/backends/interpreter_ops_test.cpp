@@ -112,7 +112,7 @@ TEST(InterpreterOps, powers) {
       EXPECT_EQ(test::evaluate(p, {2})[0], std::ldexp(1.0, static_cast<int>(n)));
       EXPECT_EQ(test::evaluate(p, {-2})[0],
                 std::ldexp(std::fmod(n, 2) == 0 ? 1.0 : -1.0, static_cast<int>(n)));
-      EXPECT_TRUE(same_bits(test::evaluate(p, {NAN})[0], n == 0 ? 1 : NAN));
+      EXPECT_TRUE(std::isnan(test::evaluate(p, {NAN})[0]));  // for n = 0 too: there is nothing to raise
     }
 }
 

@@ -113,6 +113,22 @@ TEST(Constants, exact_ones_are_points) {
   expect((c(1) / c(10)) * 0.0, 0);
 }
 
+// As min and max have it (ir/ops.def): where the first may have no value the second may be the answer.
+TEST(Constants, the_second_where_the_first_has_no_value) {
+  Constants c;
+  const Expr root = sqrt(c(2)), none = sqrt(-root), perhaps = sqrt(root * root - 2.0);
+  for (const Op op : {Op::min, Op::max}) {
+    const Enclosure second = c.value(make(op, none, c(3) / c(4)));
+    EXPECT_EQ(second.lo, 0.75);
+    EXPECT_EQ(second.hi, 0.75);
+    EXPECT_TRUE(second.continuous);
+    const Enclosure either = c.value(make(op, perhaps, c(3) / c(4)));
+    EXPECT_LE(either.lo, op == Op::min ? 0 : 0.75);
+    EXPECT_EQ(either.hi, 0.75);
+    EXPECT_FALSE(either.continuous);
+  }
+}
+
 TEST(Constants, empty_where_there_is_no_value) {
   Constants c;
   const Expr root = sqrt(c(2));
@@ -130,6 +146,7 @@ TEST(Constants, empty_where_there_is_no_value) {
   EXPECT_TRUE(empty(c.value(make(Op::atanh, c(1)))));
   EXPECT_TRUE(empty(c.value(make(Op::mod, root, root * 0.0))));
   EXPECT_TRUE(empty(c.value(1.0 + min(root, sqrt(-root)))));
+  EXPECT_TRUE(empty(c.value(make(Op::powi, sqrt(-root), c(0)))));
   EXPECT_TRUE(empty(c.value(c(NAN))));
 }
 

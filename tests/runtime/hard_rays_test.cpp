@@ -36,6 +36,7 @@ struct Row {
 Ray along_x(double x, double y, double z, double tmax) { return {{x, y, z}, {1, 0, 0}, 0, tmax}; }
 Ray along_y(double x, double y, double z, double tmax) { return {{x, y, z}, {0, 1, 0}, 0, tmax}; }
 Ray along_z(double x, double y, double z, double tmax) { return {{x, y, z}, {0, 0, 1}, 0, tmax}; }
+constexpr Ray around_zero{{0, 0, 0}, {1, 0, 0}, -1.3, 2};  // t is x
 
 constexpr const char* edge = "sqrt(x) + y";
 constexpr const char* cliff = "if(x < 0, -1, 1)";
@@ -91,6 +92,14 @@ const Row hard_rays[] = {
     {"at_the_edge_of_a_domain", edge, along_x(-1, 0, 0, 2), "u", 0, "sqrt(x) is 0 at 0, and nothing before"},
     {"into_a_domain", edge, along_x(-1, -0.5, 0, 2), "h", 1.25, "sqrt(x) = 1/2; without a value before 0"},
     {"outside_a_domain", edge, along_x(-3, -1, 0, 2), "m", 0, "no value, no zero"},
+    {"beside_a_power_without_a_value", "4*x^3 - 3*x + log(x - 5)^0 - 1.2", around_zero, "m", 0,
+     "no value before 5"},
+    {"across_a_power_without_a_value", "4*x^3 - 3*x + (1/x)^0 - 1", along_x(-0.5, 0, 0, 1), "mu", 0,
+     "no value at 0, where a root would be"},
+    {"beside_a_polynomial_without_a_value", "4*x^3 - 3*x + T(0, log(x - 5)) - 1.2", around_zero, "m", 0,
+     "no value before 5"},
+    {"of_a_choice_without_a_value", "min(sqrt(0 - 1), 2) - x - 1.5", around_zero, "h", 0.5,
+     "min is its second operand"},
     {"across_a_step", cliff, along_x(-1, 0, 0, 2), "u", 0, "the sign jumps"},
     {"across_a_jump", jump, along_x(-1.5, 0, 0, 2), "u", 0, "the sign jumps at 0"},
     {"x_500", steep, along_x(-3, 0, 0, 6), "h", 2, "3^500 overflows float"},

@@ -98,6 +98,10 @@ TEST(PowerBasisOf, small_examples) {
   const auto zero_times_root = [](Expr x, Expr w) { return 0.0 * (x * sqrt(w)); };
   EXPECT_TRUE(at(-2, -1, zero_times_root).ends_with("empty; "));
   EXPECT_EQ(at(-1, 1, zero_times_root), "1: 0 0 broken; ");
+  const auto root_to_the_0 = [](Expr x, Expr w) { return power(x * sqrt(w), 0); };
+  EXPECT_EQ(at(-2, -1, root_to_the_0), "0: 1 1 empty; ");
+  EXPECT_EQ(at(-1, 1, root_to_the_0), "0: 1 1 broken; ");
+  EXPECT_EQ(at(0, 1, root_to_the_0), "0: 1 1; ");
   EXPECT_TRUE(at(0, 0, [](Expr x, Expr w) { return (x - x) * (x / w) + 1.0; }).ends_with("empty; "));
   EXPECT_EQ(at(0, 1, [](Expr x, Expr) { return x - x; }), "");
   EXPECT_EQ(at(0, 1, [](Expr x, Expr w) { return 0.0 * x + fma(x, -w, 2.0 * x); }), "1: 1 2; ");
