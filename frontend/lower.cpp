@@ -12,7 +12,7 @@ namespace imp::syntax {
 namespace {
 
 constexpr double largest_exponent = 1 << 20;  // of Op::powi
-constexpr double largest_integer = 0x1p53;    // up to it doubles count one by one
+constexpr double largest_integer = 0x1p53;    // below it doubles count one by one
 
 }  // namespace
 
@@ -23,7 +23,8 @@ Lowering::Lowering(const Ast& ast, Graph& graph, std::vector<Id> inputs, std::si
       inputs_(std::move(inputs)),
       budget_(budget),
       diagnostics_(diagnostics),
-      text_(diagnostics.sources.text(ast.file)) {}
+      text_(diagnostics.sources.text(ast.file)),
+      rationals_(graph) {}
 
 std::optional<Id> Lowering::operator()(Range expression, Span place) {
   if (expression.size() > budget_ && !too_large(place)) return std::nullopt;
@@ -144,12 +145,11 @@ void Lowering::number(const Node& node) {
 // The integer power where the exponent is a constant integer, else the real power.
 bool Lowering::power(const Node& node) {
   const Id exponent = pop(), base = pop();
-  const auto n = graph_.number(exponent);
-  const bool integer = n && std::floor(*n) == *n;
-  if (integer && std::abs(*n) > largest_exponent)
+  const auto n = integer(exponent);
+  if (n && std::abs(*n) > largest_exponent)
     return fail(ast_.span(node), fmt::format("the exponent {} is beyond {}", *n, largest_exponent));
-  if (integer)
-    values_.push_back(make(node, Op::powi, {base, constant(*n + 0.0)}));  // -0 is 0
+  if (n)
+    values_.push_back(make(node, Op::powi, {base, constant(*n)}));
   else
     values_.push_back(make(node, Op::pow, {base, exponent}));
   return true;
@@ -178,10 +178,15 @@ Id Lowering::pop() {
   return value;
 }
 
+// Of an integer; beyond `largest_integer` it is a double near it.
+std::optional<double> Lowering::integer(Id value) {
+  const auto exact = rationals_(value);
+  return exact && exact->get_den() == 1 ? std::optional(exact->get_d()) : std::nullopt;
+}
+
 std::optional<double> Lowering::pop_integer() {
-  const auto value = graph_.number(pop());
-  const bool integer = value && std::floor(*value) == *value && std::abs(*value) <= largest_integer;
-  return integer ? std::optional(*value + 0.0) : std::nullopt;
+  const auto value = integer(pop());
+  return value && std::abs(*value) < largest_integer ? value : std::nullopt;
 }
 
 bool Lowering::fail(Span place, std::string message) {

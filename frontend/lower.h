@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "frontend/ast.h"
+#include "frontend/rational.h"
 #include "ir/diagnostics.h"
 #include "ir/program.h"
 
@@ -58,6 +59,7 @@ class Lowering {
   Id constant(double value) { return graph_.constant(f64, value); }
   Id make(const Node& node, Op op, std::initializer_list<Id> args);
   Id pop();
+  std::optional<double> integer(Id value);
   std::optional<double> pop_integer();
   bool fail(Span place, std::string message);
   bool too_large(Span place);
@@ -69,6 +71,7 @@ class Lowering {
   Diagnostics& diagnostics_;
   std::string_view text_;
 
+  Rationals rationals_;
   std::unordered_map<std::uint32_t, Id> definitions_;  // those already lowered
   std::vector<Frame> frames_;
   std::vector<Id> values_, locals_;

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "passes/exponents.h"
+
 namespace imp::tools {
 namespace {
 
@@ -48,7 +50,11 @@ std::optional<std::string> read_text(const std::string& path, Diagnostics& diagn
 std::optional<Model> read_model(const std::string& path, Diagnostics& diagnostics) {
   auto text = read_text(path, diagnostics);
   if (!text) return std::nullopt;
-  return parse_model(std::move(*text), shown_name(path), diagnostics);
+  auto model = parse_model(std::move(*text), shown_name(path), diagnostics);
+  if (!model) return std::nullopt;
+  bool good = check_exponents(model->settings, diagnostics);
+  for (const Surface& surface : model->surfaces) good = check_exponents(surface.f, diagnostics) && good;
+  return good ? std::move(model) : std::nullopt;
 }
 
 std::optional<std::size_t> choose_surface(const Model& model, const std::string& name,

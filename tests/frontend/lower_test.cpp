@@ -40,6 +40,54 @@ TEST(Lowering, tells_integer_powers_from_real_ones) {
   EXPECT_EQ(root("param n = 2\nx^n"), "pow input input");
 }
 
+// No double is 0.3, but 0.3/0.1 is 3.
+TEST(Lowering, decides_exponents_exactly) {
+  EXPECT_EQ(root("x^(0.3/0.1)"), "powi input 3");
+  EXPECT_EQ(root("x^(0.1*20)"), "powi input 2");
+  EXPECT_EQ(root("x^(0.1 + 0.2 + 0.7)"), "powi input 1");
+  EXPECT_EQ(root("x^-(1/3 + 1/6 - 5/2)"), "powi input 2");
+  EXPECT_EQ(root("x^mod(5, 3)"), "powi input 2");
+  EXPECT_EQ(root("x^mod(-0.5, 0.3)"), "pow input mod");
+  EXPECT_EQ(root("x^floor(0.3/0.1)"), "powi input 3");
+  EXPECT_EQ(root("x^ceil(0.3/0.1)"), "powi input 3");
+  EXPECT_EQ(root("x^floor(-1/3)"), "powi input -1");
+  EXPECT_EQ(root("x^max(1/3, min(0.3/0.1, 7/2))"), "powi input 3");
+  EXPECT_EQ(root("x^(3*sign(-1/3))"), "powi input -3");
+  EXPECT_EQ(root("x^|-6/3|"), "powi input 2");
+  EXPECT_EQ(root("x^sqrt(4)"), "powi input 2");
+  EXPECT_EQ(root("x^sqrt(0.09*100)"), "powi input 3");
+  EXPECT_EQ(root("x^(27/8)^(1/3)"), "pow input pow");
+  EXPECT_EQ(root("x^(2*(27/8)^(1/3))"), "powi input 3");
+  EXPECT_EQ(root("x^cbrt(-8)"), "powi input -2");
+  EXPECT_EQ(root("x^(1/4)^-0.5"), "powi input 2");
+  EXPECT_EQ(root("x^0.5^-2"), "powi input 4");
+  EXPECT_EQ(root("x^if(0.3 <= 0.1*3, 2, log(2))"), "powi input 2");
+  EXPECT_EQ(root("x^if(not (0.3 < 0.1*3 or 1 > 2), 2, 5)"), "powi input 2");
+  EXPECT_EQ(root("x^sum(i, 1, 3, i/3)"), "powi input 2");
+  EXPECT_EQ(root("x^product(i, 1, 3, i/3 + 1/3)"), "pow input mul");
+  EXPECT_EQ(root("n = 0.3\nhalf(a) = a/0.1\nx^half(n)"), "powi input 3");
+  EXPECT_EQ(root("x^(1e-300*1e300)"), "powi input 1");
+  EXPECT_EQ(root("x^(9007199254740993 - 9007199254740992)"), "powi input 1");
+  EXPECT_EQ(root("x^(1/0)"), "pow input div");
+  EXPECT_EQ(root("x^0.3"), "pow input div");
+  EXPECT_EQ(root("x^(2 + 1e-20)"), "pow input add");
+}
+
+TEST(Lowering, decides_bounds_and_degrees_exactly) {
+  EXPECT_EQ(root("sum(i, 0.1*10, 0.3/0.1, i)"), root("sum(i, 1, 3, i)"));
+  EXPECT_EQ(root("T(0.3/0.1, x)"), "chebyshev input 3 0");
+  EXPECT_EQ(root("T(mod(8, 3), x)"), "chebyshev input 2 0");
+}
+
+// What takes more digits than there are is no integer, and takes no time.
+TEST(Lowering, bounds_what_it_decides_exactly) {
+  EXPECT_EQ(root("x^(0.1^100000*10^100000)"), "pow input mul");
+  EXPECT_EQ(root("x^((1/3)^1000000)"), "pow input powi");
+  EXPECT_EQ(root("x^(2^1000 - 2^1000 + 2)"), "powi input 2");
+  EXPECT_EQ(root("x^sum(i, 1, 20000, 1/i)").substr(0, 9), "pow input");
+  EXPECT_EQ(root("x^(4^(1/1048577) + 2^-1048576)").substr(0, 9), "pow input");
+}
+
 TEST(Lowering, of_equations_is_left_minus_right) {
   EXPECT_EQ(root("x = y"), "sub input input");
   EXPECT_EQ(root("x*y = 0"), "mul input input");
