@@ -14,50 +14,49 @@ struct Helper {
 
 // $T is the type; the other words are in `layouts`. Each stands behind those that it calls.
 constexpr Helper helpers[] = {
-    {"is_negative",
-     {"bool is_negative(float a) { return floatBitsToInt(a) < 0; }\n",
-      "bool is_negative(double a) { return int(unpackDouble2x32(a).y) < 0; }\n"}},
     {"raise",
-     {R"(// The next number above r, or more: what rounded to r lies at or below it.
-$T raise($T r) {
-  precise $T finite = r < -$largest ? -$largest : r;
-  precise $T raised = finite + (abs(finite) * $step + $tiny);
-  return is_negative(r) && raised > $zero ? $zero : raised;
+     {R"(// The next number above r, or more, and no denormal: what rounded to r lies at or below it. If that is
+// below zero, so is the result, or zero.
+$T raise($T r, bool below) {
+  precise $T raised = r + (abs(r) * $step + $tiny);
+  precise $T result = below && raised > -$tiny ? $zero : raised;
+  return r < -$largest ? -$largest : result;
 }
 )",
       ""}},
     {"add_up",
      {R"($T add_up($T a, $T b) {
   precise $T r = a + b;
-  return a == -b ? r : raise(r);
+  return a == -b ? r : raise(r, a < -b);
 }
 )",
       ""}},
     {"mul_up",
      {R"($T mul_up($T a, $T b) {
   precise $T r = a * b;
-  return a == $zero || b == $zero ? r : raise(r);
+  return a == $zero || b == $zero ? $zero : raise(r, (a < $zero) != (b < $zero));
 }
 )",
       ""}},
     {"div_up",
      {R"($T div_up($T a, $T b) {
   precise $T r = a / b;
-  return a == $zero ? r : raise(r);
+  return b == $zero ? $infinity : a == $zero ? r : raise(r, (a < $zero) != (b < $zero));
 }
 )",
       ""}},
     {"sqrt_up",
      {R"($T sqrt_up($T a) {
   precise $T r = sqrt(a);
-  return a == $zero ? r : raise(r);
+  return a == $zero ? r : raise(r, false);
 }
 )",
       ""}},
     {"narrow_up",
      {R"(float narrow_up(double a) {
   precise float r = float(a);
-  return double(r) >= a ? r : raise(r);
+  bool exact = a == zero_f64 || (double(r) >= a && abs(r) >= 1.17549435e-38);
+  return exact ? r : raise(r, a < zero_f64);
 }
 )",
       ""}},
@@ -115,6 +114,7 @@ struct Word {
 constexpr Word words[] = {
     {"$T", {"float", "double"}},
     {"$zero", {"zero", "zero_f64"}},
+    {"$infinity", {"uintBitsToFloat(0x7f800000u)", "packDouble2x32(uvec2(0u, 0x7ff00000u))"}},
     {"$largest", {"3.4028235e+38", "1.7976931348623157e+308lf"}},
     {"$step", {"5.960465e-08", "1.1102230246251568e-16lf"}},
     {"$tiny", {"1.17549435e-38", "2.2250738585072014e-308lf"}},

@@ -26,7 +26,10 @@ std::vector<std::string_view> helper_names();
 //   2^-1022). That is the number after r (Rump, Zimmermann, Boldo, Melquiond 2009: Computing predecessor
 //   and successor in rounding to nearest), and near zero what a driver loses that flushes denormal results.
 //   A result below zero is not raised above it, an exact zero stays, and one that overflowed to -inf is
-//   the least finite number before it is raised.
+//   the least finite number.
+//
+// None looks at the sign of a zero, which a driver need not keep, or gives a denormal, which a driver may take
+// for zero. A quotient by zero is infinite upward, and a product with zero is zero, with infinity too.
 //
 // They expect the uniforms `zero` and `zero_f64`: Mesa folds x * 0 and x + 0, whatever x is, where it sees
 // the 0, in spite of `precise`.

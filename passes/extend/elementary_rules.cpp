@@ -193,10 +193,12 @@ Interval IntervalRules::atan2(const Interval& y, const Interval& x) const {
   const Truth origin = !right && y.nlo >= none && y.hi >= none && x.hi >= none;
   const Truth cut = !right && !upper && !lower;
   const Truth around = origin || cut;
+  // Where y is 0 left of the origin its sign would tell pi from -pi, and a driver need not keep it.
+  const Truth half_turn = !right && equal(ylo, none);
   // Above the x axis no angle is negative, not even around the origin.
   const Expr below = imp::select(upper, none, pi);
   return {imp::select(around, below, at_most(first.minus_below, above_pi)),
-          imp::select(around, pi, at_most(last.above, above_pi)),
+          imp::select(around || half_turn, pi, at_most(last.above, above_pi)),
           x.empty || y.empty,
           x.continuous && y.continuous && !around,
           {false, true}};

@@ -93,6 +93,9 @@ Interval scaled(const Interval& a, double c) {
   return c > 0 ? with(a, down, up, {a.facts.nonnegative, false}) : with(a, up, down);
 }
 
+// Ends that say nothing of a set that is not empty.
+Truth unknown(const Interval& a) { return !(a.empty || is_ordered(a)); }
+
 }  // namespace
 
 Interval interval(Expr nlo, Expr hi, Facts facts) {
@@ -105,7 +108,7 @@ Interval intersect(const Interval& a, const Interval& b) {
   const Expr nlo = min(a.nlo, b.nlo), hi = min(a.hi, b.hi);
   return {nlo,
           hi,
-          a.empty || b.empty || hi < -nlo,
+          a.empty || b.empty || (is_ordered(a) && is_ordered(b) && hi < -nlo),
           a.continuous || b.continuous,
           {a.facts.nonnegative || b.facts.nonnegative, a.facts.bounded || b.facts.bounded}};
 }
@@ -153,7 +156,8 @@ Interval IntervalRules::fma(const Interval& a, const Interval& b, const Interval
 }
 
 // For 0 < b the ends are a.hi / (b.lo or b.hi) by the sign of a.hi, and alike for a.lo. A negative
-// b is turned around together with a; across 0 the quotient is everything, but for 0 / b.
+// b is turned around together with a; across 0 the quotient is everything, but for 0 / b. A divisor 0 is +0,
+// or the sign of it does not count (backends/glsl/prelude.h).
 Interval IntervalRules::div(const Interval& a, const Interval& b) const {
   if (const auto c = constant_point(b); c && *c != 0) {
     const Expr divisor = constant_like(a.hi, std::abs(*c));
@@ -175,7 +179,7 @@ Interval IntervalRules::div(const Interval& a, const Interval& b) const {
   return {imp::select(entire, all_reals, quotient(nlo)),
           imp::select(entire, all_reals, quotient(hi)),
           a.empty || b.empty || only_zero,
-          a.continuous && b.continuous && (is_positive(b) || is_negative(b)),
+          a.continuous && b.continuous && (b.nlo < none || b.hi < none),
           {a.facts.nonnegative && b.facts.nonnegative, false}};
 }
 
@@ -248,17 +252,21 @@ Interval IntervalRules::powi(const Interval& a, const Interval& exponent) const 
 
 Possible IntervalRules::lt(const Interval& a, const Interval& b) const {
   const Truth undefined = !(a.continuous && b.continuous);  // NaN compares false
-  return {a.lo() < b.hi, a.hi >= b.lo() || undefined};
+  const Truth either = unknown(a) || unknown(b);
+  return {a.lo() < b.hi || either, a.hi >= b.lo() || undefined || either};
 }
 
 Possible IntervalRules::le(const Interval& a, const Interval& b) const {
   const Truth undefined = !(a.continuous && b.continuous);
-  return {a.lo() <= b.hi, a.hi > b.lo() || undefined};
+  const Truth either = unknown(a) || unknown(b);
+  return {a.lo() <= b.hi || either, a.hi > b.lo() || undefined || either};
 }
 
 Possible IntervalRules::eq(const Interval& a, const Interval& b) const {
   const Truth undefined = !(a.continuous && b.continuous);
-  return {a.lo() <= b.hi && b.lo() <= a.hi, a.lo() < b.hi || b.lo() < a.hi || undefined};
+  const Truth either = unknown(a) || unknown(b);
+  return {(a.lo() <= b.hi && b.lo() <= a.hi) || either,
+          a.lo() < b.hi || b.lo() < a.hi || undefined || either};
 }
 
 Possible IntervalRules::and_(const Possible& a, const Possible& b) const {

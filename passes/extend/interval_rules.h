@@ -5,6 +5,8 @@
 // where the operands' are not; where `empty` holds they mean nothing.
 #pragma once
 
+#include <cmath>
+
 #include "ir/expr.h"
 #include "ir/replay.h"
 
@@ -31,13 +33,20 @@ struct Possible {
   Truth yes, no;
 };
 
-// NaN may be zero; the empty set is not.
-inline Truth is_positive(const Interval& a) { return a.nlo < 0; }
-inline Truth is_negative(const Interval& a) { return a.hi < 0; }
-inline Truth may_be_zero(const Interval& a) { return !is_positive(a) && !is_negative(a) && !a.empty; }
+// Whether the ends say anything: those of an empty set, or of a rule gone wrong, may have changed places.
+inline Truth is_ordered(const Interval& a) { return a.lo() <= a.hi; }
 
-// The least number of `type` that is not below `value`.
+// Ends that are NaN or not in order prove no sign. The empty set is not zero.
+inline Truth is_positive(const Interval& a) { return a.nlo < 0 && is_ordered(a); }
+inline Truth is_negative(const Interval& a) { return a.hi < 0 && is_ordered(a); }
+inline Truth may_be_zero(const Interval& a) {
+  return !(a.empty || ((a.nlo < 0 || a.hi < 0) && is_ordered(a)));
+}
+
+// The least number of `type` that is not below `value`, and no denormal, which a driver may take for zero.
 inline Expr rounded_up(Graph& graph, Type type, double value) {
+  const double least = type == f32 ? 0x1p-126 : 0x1p-1022;
+  if (std::abs(value) < least && value != 0) value = value < 0 ? 0 : least;
   const Expr wide{&graph, graph.constant(f64, value)};
   return type == f32 ? narrow_up(wide) : wide;
 }

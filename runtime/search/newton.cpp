@@ -73,7 +73,7 @@ std::optional<Found> newton(Program& program, const RayFunction& f, const Search
   const Interval piece = interval(-s, e, {.nonnegative = true, .bounded = true});
   const Expr c = 0.5 * (s + e);
   const Interval bound = f.bound(piece), slopes = f.slope_bound(piece), at_c = f.bound_at(c);
-  const Truth regular = bound.continuous && slopes.continuous;
+  const Truth regular = bound.continuous && slopes.continuous && is_ordered(at_c) && is_ordered(slopes);
   const Expr sign_c = proven_sign(at_c);
   const Expr direction = select(regular, proven_sign(slopes), zero_);
   const Truth monotone = abs(direction) > 0;

@@ -62,7 +62,7 @@ std::optional<Found> segment_tracing(Program& program, const RayFunction& f, con
   const Truth regular = bound.continuous && slope.continuous;
   const Truth same = sign * sign_end > 0, opposite = sign * sign_end < 0;
   const Truth never_meet = fall > 0 && rise > 0 && meeting < -apart;
-  const Truth nowhere_zero = same && (fall <= 0 || rise <= 0 || never_meet);
+  const Truth nowhere_zero = is_ordered(slope) && same && (fall <= 0 || rise <= 0 || never_meet);
   Truth excluded = bound.empty || (regular && nowhere_zero);
   // A polynomial is regular everywhere, and its inclusion over the piece need not be computed.
   if (program.graph.truth_value(regular.id) != true) excluded = excluded || !may_be_zero(bound);

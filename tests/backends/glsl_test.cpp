@@ -120,10 +120,17 @@ std::string refusal_of(const Program& program) {
 TEST(Glsl, refuses_what_would_take_too_long_or_not_end) {
   Program large;
   Expr x = test::input(large, "x");
-  for (int i = 0; i < 5000; ++i) x = x * x + 1.0;
+  for (int i = 0; i < 8000; ++i) x = x * x + 1.0;
   test::output(large, "f", x);
   EXPECT_EQ(refusal_of(large),
-            "this takes 10000 operations, and a shader has at most 3000; use --backend=llvm");
+            "this takes 16000 operations, and a shader has at most 15000; use --backend=llvm");
+
+  Program upward;
+  Expr y = test::input(upward, "y");
+  for (int i = 0; i < 1400; ++i) y = mul_up(y, y);
+  test::output(upward, "f", y);
+  EXPECT_EQ(refusal_of(upward),
+            "this takes 15400 operations, and a shader has at most 15000; use --backend=llvm");
 
   Program slow;
   Loop loop(slow, "wait", 100'000);

@@ -7,18 +7,17 @@ uniform uint size;  // rays
 uniform float zero;  // hidden from the compiler, which would fold x * 0
 uniform double zero_f64;
 
-bool is_negative(float a) { return floatBitsToInt(a) < 0; }
-
-// The next number above r, or more: what rounded to r lies at or below it.
-float raise(float r) {
-  precise float finite = r < -3.4028235e+38 ? -3.4028235e+38 : r;
-  precise float raised = finite + (abs(finite) * 5.960465e-08 + 1.17549435e-38);
-  return is_negative(r) && raised > zero ? zero : raised;
+// The next number above r, or more, and no denormal: what rounded to r lies at or below it. If that is
+// below zero, so is the result, or zero.
+float raise(float r, bool below) {
+  precise float raised = r + (abs(r) * 5.960465e-08 + 1.17549435e-38);
+  precise float result = below && raised > -1.17549435e-38 ? zero : raised;
+  return r < -3.4028235e+38 ? -3.4028235e+38 : result;
 }
 
 float add_up(float a, float b) {
   precise float r = a + b;
-  return a == -b ? r : raise(r);
+  return a == -b ? r : raise(r, a < -b);
 }
 
 // The place of element i of a table: rounded down and clamped; 0 for NaN.

@@ -55,9 +55,10 @@ Found walk_from(Program& program, const RayFunction& f, std::span<const Interval
   const Expr one_{&program.graph, program.graph.constant(f64, 1)}, zero_ = zero(one_);
   const Expr unknown{&program.graph, program.graph.constant(type, 0)};
   const Truth no = truth_of(program.graph, false);
-  Truth defined = truth_of(program.graph, true), smooth = defined;
+  Truth defined = truth_of(program.graph, true), ordered = defined, smooth = defined;
   for (const Interval& b : coefficients) {
     defined = defined && !b.empty;
+    ordered = ordered && is_ordered(b);  // and so are all that a split makes of them
     smooth = smooth && b.continuous;
   }
 
@@ -109,7 +110,7 @@ Found walk_from(Program& program, const RayFunction& f, std::span<const Interval
     loop.next(rest[i].nlo, select(split, rest[i].nlo, parts.right[i].nlo));
     loop.next(rest[i].hi, select(split, rest[i].hi, parts.right[i].hi));
   }
-  loop.enter_if(f.exists && defined);
+  loop.enter_if(f.exists && defined && ordered);
   loop.again_while((split || end < 1) && !run_ends);
 
   const Truth found = loop.result(open);
