@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <unordered_map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,8 +45,8 @@ class FrameInputs {
   const void* operator()(const Input& input) const;
 
  private:
-  std::vector<std::string> names_;  // of the uniforms
   UniformValues uniforms_;
+  std::unordered_map<std::string, std::size_t> places_;  // of the uniforms, by the name of the input
   std::map<std::string, float> values_;
 };
 
