@@ -377,8 +377,10 @@ std::optional<Pipeline> beam_stages(const Model& model, const RenderOptions& opt
   const auto space = space_bounds(model);
   if (!space || options.kernel.backend == Backend::glsl) return Pipeline{};  // forms make a shader too long
   Stages stages(model, *space);
-  for (const std::size_t index : drawn_surfaces(model, options))
-    if (!stages.add_target(drawn_function(model, index), diagnostics)) return std::nullopt;
+  for (const std::size_t index : drawn_surfaces(model, options)) {
+    const auto f = searchable_function(model, index, options.kernel, diagnostics);
+    if (!f || !stages.add_target(*f, diagnostics)) return std::nullopt;
+  }
   return stages.build(diagnostics);
 }
 
