@@ -1,12 +1,17 @@
 #include "runtime/workers.h"
 
 #include <algorithm>
+#include <system_error>
 
 namespace imp {
 
 Workers::Workers(unsigned threads) {
   if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
-  for (unsigned i = 1; i < threads; ++i) threads_.emplace_back([this] { serve(); });
+  threads_.reserve(threads);
+  try {
+    while (threads_.size() + 1 < threads) threads_.emplace_back([this] { serve(); });
+  } catch (const std::system_error&) {  // the machine has no more: those that there are do the work
+  }
 }
 
 Workers::~Workers() {

@@ -12,7 +12,8 @@ namespace imp {
 
 class Workers {
  public:
-  explicit Workers(unsigned threads = 0);  // 0: one a core
+  // 0: one a core. There are fewer where the machine starts no more.
+  explicit Workers(unsigned threads = 0);
   ~Workers();
 
   // Runs `job` once in every thread, the caller's among them, and returns when all are done. One job
