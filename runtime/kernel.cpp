@@ -40,7 +40,7 @@ std::expected<std::unique_ptr<Kernel>, Refusal> compile_for_gl(Program program, 
 
 // Passes shorten a Program by half at most: what is added up and down may be one when rounding to nearest.
 constexpr std::size_t longest_for_passes = 2 * 20'000;
-constexpr std::size_t longest_for_interpreter = 2 * 500'000;
+constexpr std::size_t longest_for_interpreter = 2 * 100'000;
 
 // What the ops are at least when they are lowered.
 std::size_t least_operations(const Program& program) {
