@@ -7,11 +7,14 @@ namespace imp {
 
 Workers::Workers(unsigned threads) {
   if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
-  threads_.reserve(threads);
+  while (threads_.size() + 1 < threads && add_thread()) {}
+}
+
+bool Workers::add_thread() {
   try {
-    while (threads_.size() + 1 < threads) threads_.emplace_back([this] { serve(); });
-  } catch (const std::system_error&) {  // the machine has no more: those that there are do the work
-  }
+    threads_.emplace_back([this] { serve(); });
+    return true;
+  } catch (const std::system_error&) { return false; }
 }
 
 Workers::~Workers() {

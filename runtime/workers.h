@@ -23,6 +23,7 @@ class Workers {
   unsigned size() const { return static_cast<unsigned>(threads_.size()) + 1; }
 
  private:
+  bool add_thread();  // false: the machine starts no more
   void serve();
 
   std::mutex one_job_;
