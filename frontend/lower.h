@@ -15,7 +15,7 @@ namespace imp::syntax {
 
 // How many nodes of the tree a whole file may make us visit: a few functions of functions can stand
 // for more than any machine holds.
-inline constexpr std::size_t most_operations = 4'000'000;
+inline constexpr std::size_t most_operations = 1'000'000;
 
 // Lowers expressions into one graph. The tree has passed all checks: names are known and no
 // definition leads back to itself.

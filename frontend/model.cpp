@@ -10,6 +10,9 @@ namespace imp {
 namespace {
 
 constexpr std::size_t largest_file = std::size_t{64} << 20;
+// Passes and derivatives of a longer formula take seconds, and no kernel could be made of it (docs/guarantees.md,
+// "Sizes").
+constexpr std::size_t longest_formula = 30'000;
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 // The inputs of a surface: x, y, z, the parameters, the time. Outside the surfaces there is no point.
@@ -21,6 +24,12 @@ std::vector<Id> add_inputs(Program& program, const Model& model, bool point) {
     inputs.push_back(add_input(program, parameter.name, f64, Rate::frame));
   if (model.time) inputs.push_back(add_input(program, model.time->name, f64, Rate::frame));
   return inputs;
+}
+
+std::size_t operations(const Graph& graph) {
+  std::size_t count = 0;
+  for (std::uint32_t i = 0; i < graph.size(); ++i) count += graph[Id{i}].args.empty() ? 0 : 1;
+  return count;
 }
 
 // Makes the Programs of a Model.
@@ -43,6 +52,11 @@ class Builder {
       if (program.graph.number(*right) != 0) f = program.graph.add(Op::sub, {f, *right});
       program.graph.set_span(f, equation.span);
     }
+    if (const std::size_t count = operations(program.graph); count > longest_formula)
+      return diagnostics_.error(equation.span,
+                                fmt::format("this takes {} operations, and a formula has at most {}; "
+                                            "let fewer terms or a shorter sum stand for it",
+                                            count, longest_formula));
     program.outputs.push_back({"f", f});
     model_.surfaces.push_back({equation.name, std::move(program), equation.span});
   }

@@ -14,11 +14,12 @@ std::size_t mix(std::size_t seed, std::uint64_t value) {
   return (seed ^ (value + 0x9e3779b97f4a7c15u + (seed << 6) + (seed >> 2))) * 0xff51afd7ed558ccdu;
 }
 
-std::size_t hash_of(Op op, Type type, std::uint64_t payload, std::span<const Id> args) {
+// All of it counts: its low bits find the slot.
+std::uint32_t hash_of(Op op, Type type, std::uint64_t payload, std::span<const Id> args) {
   std::size_t seed = mix(static_cast<std::size_t>(op), static_cast<std::uint64_t>(type.scalar));
   seed = mix(mix(seed, type.length), payload);
   for (const Id arg : args) seed = mix(seed, arg.index);
-  return seed;
+  return static_cast<std::uint32_t>(seed >> 32);
 }
 
 std::uint64_t bits_of(Type type, double value) {
@@ -118,17 +119,16 @@ bool Graph::is_number(Id id, double value) const {
 }
 
 void Graph::set_span(Id id, Span span) {
-  if (span.valid()) spans_.try_emplace(id.index, span);
+  if (!span.valid() || this->span(id).valid()) return;
+  if (spans_.size() <= id.index) spans_.resize(nodes_.size());
+  spans_[id.index] = span;
 }
 
 void Graph::set_name(Id id, std::string_view name) {
   if (!name.empty()) names_.try_emplace(id.index, name);
 }
 
-Span Graph::span(Id id) const {
-  const auto it = spans_.find(id.index);
-  return it == spans_.end() ? Span{} : it->second;
-}
+Span Graph::span(Id id) const { return id.index < spans_.size() ? spans_[id.index] : Span{}; }
 
 std::string_view Graph::name(Id id) const {
   const auto it = names_.find(id.index);
@@ -142,18 +142,31 @@ bool Graph::same(const Stored& stored, Op op, Type type, std::uint64_t payload,
 }
 
 Id Graph::intern(Op op, Type type, std::uint64_t payload, std::span<const Id> args) {
-  const std::size_t hash = hash_of(op, type, payload, args);
-  const auto [first, last] = unique_.equal_range(hash);
-  for (auto it = first; it != last; ++it)
-    if (same(nodes_[it->second.index], op, type, payload, args)) return it->second;
+  if (unique_.size() <= 2 * nodes_.size()) enlarge_table();
+  const std::uint32_t hash = hash_of(op, type, payload, args);
+  const std::size_t mask = unique_.size() - 1;
+  std::size_t slot = hash & mask;
+  for (; unique_[slot].valid(); slot = (slot + 1) & mask) {
+    const Stored& known = nodes_[unique_[slot].index];
+    if (known.hash == hash && same(known, op, type, payload, args)) return unique_[slot];
+  }
 
   const Id id{static_cast<std::uint32_t>(nodes_.size())};
   const auto begin = static_cast<std::uint32_t>(operands_.size());
   const std::vector<Id> copy(args.begin(), args.end());  // args may point into operands_
   operands_.insert(operands_.end(), copy.begin(), copy.end());
-  nodes_.push_back({op, type, payload, begin, static_cast<std::uint32_t>(copy.size())});
-  unique_.emplace(hash, id);
-  return id;
+  nodes_.push_back({op, type, payload, begin, static_cast<std::uint32_t>(copy.size()), hash});
+  return unique_[slot] = id;
+}
+
+void Graph::enlarge_table() {
+  unique_.assign(std::max<std::size_t>(64, 2 * unique_.size()), Id{});
+  const std::size_t mask = unique_.size() - 1;
+  for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
+    std::size_t slot = nodes_[i].hash & mask;
+    while (unique_[slot].valid()) slot = (slot + 1) & mask;
+    unique_[slot] = Id{i};
+  }
 }
 
 Id rebuild(Graph& graph, const Node& node, std::span<const Id> args, std::uint64_t payload) {

@@ -84,17 +84,19 @@ class Graph {
     Type type;
     std::uint64_t payload;
     std::uint32_t first, count;
+    std::uint32_t hash;
   };
 
   Id intern(Op op, Type type, std::uint64_t payload, std::span<const Id> args);
   std::optional<Id> fold(Op op, Type type, std::span<const Id> args);
   std::optional<Id> fold_constants(Op op, Type type, std::span<const Id> args);
   bool same(const Stored& stored, Op op, Type type, std::uint64_t payload, std::span<const Id> args) const;
+  void enlarge_table();
 
   std::vector<Stored> nodes_;
   std::vector<Id> operands_;
-  std::unordered_multimap<std::size_t, Id> unique_;  // by hash
-  std::unordered_map<std::uint32_t, Span> spans_;
+  std::vector<Id> unique_;  // by hash, open addressing: a power of 2 in size, at most half of it used
+  std::vector<Span> spans_;
   std::unordered_map<std::uint32_t, std::string> names_;
 };
 

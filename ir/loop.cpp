@@ -1,6 +1,7 @@
 #include "ir/loop.h"
 
-#include <algorithm>
+#include <string_view>
+#include <unordered_set>
 
 #include "ir/assert.h"
 
@@ -8,11 +9,10 @@ namespace imp {
 
 Loop::Loop(Program& program, std::string name, std::uint32_t steps)
     : program_(&program), index_(program.phases.size()) {
-  const auto taken = [&](const std::string& n) {
-    return std::ranges::any_of(program.phases, [&](const Phase& p) { return p.name == n; });
-  };
+  std::unordered_set<std::string_view> taken;
+  for (const Phase& p : program.phases) taken.insert(p.name);
   const std::string wanted = name;
-  for (int i = 2; taken(name); ++i) name = wanted + std::to_string(i);
+  for (int i = 2; taken.contains(name); ++i) name = wanted + std::to_string(i);
   const Id yes = program.graph.constant(true);
   program.phases.push_back({std::move(name), {}, yes, yes, steps});
 }

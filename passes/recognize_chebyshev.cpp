@@ -9,6 +9,7 @@ namespace imp {
 namespace {
 
 constexpr std::size_t most_atoms_of_a_sum = 32;  // in one sum
+constexpr std::size_t longest_formula = 10'000;  // nodes; in longer ones looking takes seconds
 
 // scale T_degree(u) + rest.
 struct Match {
@@ -84,6 +85,7 @@ std::optional<Expr> rebuilt(Graph& graph, const SumOfPolynomials& sum, const std
 
 // With sums looked into, T_6(x) + T_6(y) is found where it is one long sum; without, T_6(x + y).
 Program recognize_chebyshev(const Program& f) {
+  if (f.graph.size() > longest_formula) return f;
   const auto parts = sums_of_polynomials(f, most_atoms_of_a_sum), wholes = sums_of_polynomials(f, 1);
   std::vector<Id> now(f.graph.size());
   return rewrite(f, [&](Graph& graph, Id old, const Node& node) {

@@ -17,6 +17,8 @@
 namespace imp {
 namespace {
 
+constexpr std::size_t most_surfaces = 64;  // beams of more take longer to compile than they save
+
 constexpr std::uint32_t slabs = 16;
 constexpr std::uint32_t cell_sides[] = {64, 16, beam_cell};  // of the cells of each stage, in pixels
 constexpr double longest_direction = 16;  // that is expected; longer ones leave a beam unknown
@@ -377,8 +379,12 @@ std::optional<Pipeline> beam_stages(const Model& model, const RenderOptions& opt
   const auto space = space_bounds(model);
   if (!space || options.kernel.backend == Backend::glsl) return Pipeline{};  // forms make a shader too long
   Stages stages(model, *space);
-  for (const std::size_t index : drawn_surfaces(model, options))
-    if (!stages.add_target(drawn_function(model, index), diagnostics)) return std::nullopt;
+  const std::vector<std::size_t> drawn = drawn_surfaces(model, options);
+  if (drawn.size() > most_surfaces) return Pipeline{};
+  for (const std::size_t index : drawn) {
+    const auto f = searchable_function(model, index, options.kernel, diagnostics);
+    if (!f || !stages.add_target(*f, diagnostics)) return std::nullopt;
+  }
   return stages.build(diagnostics);
 }
 

@@ -3,6 +3,9 @@
 
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <linux/magic.h>
+#include <sys/stat.h>
+#include <sys/vfs.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -14,6 +17,7 @@
 #include <expected>
 #include <filesystem>
 #include <future>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -61,7 +65,13 @@ Module load_module() {
 
 // Loaded once, in a thread of its own that the first call starts.
 const std::shared_future<Module>& image_module() {
-  static const std::shared_future<Module> module = std::async(std::launch::async, load_module).share();
+  static const std::shared_future<Module> module = [] {
+    try {
+      return std::async(std::launch::async, load_module).share();
+    } catch (const std::system_error&) {  // no further thread: later, and in the caller's
+      return std::async(std::launch::deferred, load_module).share();
+    }
+  }();
   return module;
 }
 
@@ -160,39 +170,91 @@ Error write_all(int file, std::string_view bytes) {
   return std::nullopt;
 }
 
-// Under a name of its own beside `path`, then renamed.
+Error closed(int file, Error error) {
+  if (close(file) != 0 && !error) error = std::strerror(errno);
+  return error;
+}
+
+// Under a name of its own beside `path`, then renamed. What was there before leaves its permissions.
 Error write_whole(const fs::path& path, std::string_view bytes) {
+  struct stat before{};
+  const bool known = stat(path.c_str(), &before) == 0;
+  if (known && access(path.c_str(), W_OK) != 0) return std::strerror(errno);
   const fs::path temporary =
       path.parent_path() / fmt::format(".{}.{}.part", path.filename().string(), getpid());
   const int file = open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (file < 0) return std::strerror(errno);
   Error error = write_all(file, bytes);
+  if (known && !error && fchmod(file, before.st_mode & 0777) != 0) error = std::strerror(errno);
   if (!error && fsync(file) != 0 && errno != EINVAL && errno != EROFS) error = std::strerror(errno);
-  if (close(file) != 0 && !error) error = std::strerror(errno);
+  error = closed(file, std::move(error));
   if (!error && std::rename(temporary.c_str(), path.c_str()) != 0) error = std::strerror(errno);
   if (error) unlink(temporary.c_str());
   return error;
 }
 
-// A link stays, and what it leads to is replaced.
-fs::path without_links(const fs::path& path) {
+// What is no plain file stays what it is. Behind what is there already, as a shell's >> would: /dev/stdout may be
+// a file that others write too.
+Error write_into(const fs::path& path, std::string_view bytes) {
+  const int file = open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC | O_NOCTTY);
+  if (file < 0) return std::strerror(errno);
+  return closed(file, write_all(file, bytes));
+}
+
+// Where links lead, be it to nothing yet; a link in /proc stands for what is open, and has no place.
+fs::path without_links(fs::path path) {
   std::error_code ignored;
-  if (!fs::is_symlink(path, ignored)) return path;
-  const fs::path target = fs::weakly_canonical(path, ignored);
-  return target.empty() ? path : target;
+  for (int hops = 0; hops < 40 && fs::is_symlink(path, ignored); ++hops) {
+    struct statfs system{};
+    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    if (statfs(folder.c_str(), &system) == 0 && system.f_type == PROC_SUPER_MAGIC) return path;
+    path = folder / fs::read_symlink(path, ignored);
+  }
+  return path;
+}
+
+Error problem_with_folder(const fs::path& path) {
+  const fs::path folder = path.parent_path();
+  if (access(folder.empty() ? "." : folder.c_str(), W_OK | X_OK) == 0) return std::nullopt;
+  return std::strerror(errno);
+}
+
+Error cannot_write(const std::string& path, const Error& error) {
+  if (!error) return std::nullopt;
+  return fmt::format("cannot write {}: {}", path == "-" ? "to standard output" : "'" + path + "'", *error);
 }
 
 }  // namespace
 
 void preload_image_module() { image_module(); }
 
+bool is_replaced(const std::string& path) {
+  if (path == "-") return false;
+  std::error_code ignored;
+  const fs::path target = without_links(path);
+  const fs::file_status status = fs::symlink_status(target, ignored);
+  return !fs::exists(status) || fs::is_regular_file(status);
+}
+
+std::string image_extension(const std::string& path) {
+  const std::string extension = path == "-" ? "" : fs::path(path).extension().string();
+  return extension.empty() && !is_replaced(path) ? ".png" : extension;
+}
+
+std::optional<std::string> problem_with_output(const std::string& path) {
+  if (path == "-") return std::nullopt;
+  if (is_replaced(path)) return cannot_write(path, problem_with_folder(without_links(path)));
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) return cannot_write(path, std::strerror(EISDIR));
+  return cannot_write(path, access(path.c_str(), W_OK) == 0 ? std::nullopt : Error(std::strerror(errno)));
+}
+
 std::optional<std::string> write_image(const std::string& path, const Image& image) {
-  const bool to_output = path == "-";
-  const std::string name = to_output ? "to standard output" : "'" + path + "'";
-  const auto bytes = file_bytes(image, to_output ? ".png" : fs::path(path).extension().string());
-  Error error = bytes ? std::nullopt : Error(bytes.error());
-  if (!error) error = to_output ? write_all(STDOUT_FILENO, *bytes) : write_whole(without_links(path), *bytes);
-  return error ? Error(fmt::format("cannot write {}: {}", name, *error)) : std::nullopt;
+  const auto bytes = file_bytes(image, image_extension(path));
+  if (!bytes) return cannot_write(path, bytes.error());
+  if (path == "-") return cannot_write(path, write_all(STDOUT_FILENO, *bytes));
+  return cannot_write(
+      path, is_replaced(path) ? write_whole(without_links(path), *bytes) : write_into(path, *bytes));
 }
 
 }  // namespace imp

@@ -1,8 +1,15 @@
 #include "runtime/kernel.h"
 
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+
+#include <fmt/format.h>
+
 #include "backends/glsl/kernel.h"
 #include "backends/llvm/compile.h"
 #include "ir/assert.h"
+#include "passes/rewrite.h"
 #include "passes/round_to_nearest.h"
 #include "passes/surface_passes.h"
 
@@ -31,7 +38,48 @@ std::expected<std::unique_ptr<Kernel>, Refusal> compile_for_gl(Program program, 
   return timed(timings, "compile shader", [&] { return compile_glsl(std::move(program)); });
 }
 
+// Passes shorten a Program by half at most: what is added up and down may be one when rounding to nearest.
+constexpr std::size_t longest_for_passes = 2 * 20'000;
+constexpr std::size_t longest_for_interpreter = 2 * 100'000;
+
+// What the ops are at least when they are lowered.
+std::size_t least_operations(const Program& program) {
+  constexpr std::size_t of_elementary = 8;
+  const Graph& graph = program.graph;
+  const std::vector<bool> live = live_nodes(program);
+  std::size_t count = 0;
+  for (std::uint32_t i = 0; i < live.size(); ++i) {
+    const Node node = graph[Id{i}];
+    const OpKind kind = info(node.op).kind;
+    if (!live[i] || kind == OpKind::structure) continue;
+    if (node.op == Op::powi || node.op == Op::chebyshev)
+      count += std::bit_width(static_cast<std::uint32_t>(std::abs(*graph.number(node.args[1]))));
+    else
+      count += kind == OpKind::elementary ? of_elementary : 1;
+  }
+  return count;
+}
+
+std::optional<Refusal> refusal_of(std::size_t operations, const KernelOptions& options) {
+  const bool interpreted = options.backend == Backend::interpreter;
+  const std::size_t most = interpreted ? longest_for_interpreter : longest_for_passes;
+  if (operations <= most) return std::nullopt;
+  return Refusal{
+      fmt::format("this takes at least {} operations, and at most {} can be run; {}a shorter formula is "
+                  "needed",
+                  operations / 2, most / 2, interpreted ? "" : "--backend=interpreter or ")};
+}
+
 }  // namespace
+
+std::optional<Refusal> far_too_long(const Program& program, const KernelOptions& options) {
+  return refusal_of(least_operations(program), options);
+}
+
+std::optional<Refusal> far_too_long_to_search(const Program& f, const KernelOptions& options) {
+  constexpr std::size_t times = 4;  // two ends of f, two of a derivative
+  return refusal_of(times * least_operations(f), options);
+}
 
 std::vector<Pass> passes_for(const KernelOptions& options) {
   std::vector<Pass> passes;
@@ -53,6 +101,7 @@ Program lower(Program program, const KernelOptions& options, PassTrace* trace) {
 
 std::expected<std::unique_ptr<Kernel>, Refusal> make_kernel(Program program, const KernelOptions& options,
                                                             Timings* timings) {
+  if (auto why = far_too_long(program, options)) return std::unexpected(*std::move(why));
   program = timed(timings, "passes", [&] { return lower(std::move(program), options); });
   return make_lowered_kernel(std::move(program), options, timings);
 }

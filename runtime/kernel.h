@@ -5,6 +5,7 @@
 #include <chrono>
 #include <expected>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -48,6 +49,13 @@ std::vector<Pass> all_passes();
 
 // The Program as a backend gets it.
 Program lower(Program program, const KernelOptions& options, PassTrace* trace = nullptr);
+
+// Why `program`, which `lower` has not seen, will be refused in any case: passes would take seconds over it only
+// to say so, and the memory of a machine.
+std::optional<Refusal> far_too_long(const Program& program, const KernelOptions& options);
+
+// The same of an f that is to be searched: values and derivatives of it, enclosed, will be part of the Program.
+std::optional<Refusal> far_too_long_to_search(const Program& f, const KernelOptions& options);
 
 // Errors say what is not to be had and what would be.
 std::expected<std::unique_ptr<Kernel>, Refusal> make_kernel(Program program, const KernelOptions& options,

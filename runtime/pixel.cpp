@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "ir/infinity.h"
 #include "ir/loop.h"
 #include "passes/specialize.h"
@@ -19,6 +21,9 @@ namespace {
 
 constexpr Material material{.front = {0.80, 0.52, 0.17}, .back = {0.16, 0.34, 0.62}};
 constexpr std::array undecided_mark{1.0, 0.0, 0.8};
+
+// Composing more takes seconds, and no kernel could be made of it (runtime/kernel.h, far_too_long).
+constexpr std::size_t most_nodes = 400'000;
 
 // What a ray meets, with the normal there.
 struct Sight {
@@ -62,6 +67,13 @@ class Pixel {
     for (std::size_t k = 0; k < drawn.size(); ++k) {
       const auto sight = look_at(drawn[k], k);
       if (!sight) return std::nullopt;
+      if (program_.graph.size() > most_nodes) {
+        diagnostics_.error(model_.surfaces[drawn[k]].span,
+                           fmt::format("with this surface, number {} of {}, the picture takes too many "
+                                       "operations; a shorter formula is needed, or fewer with --surface",
+                                       k + 1, drawn.size()));
+        return std::nullopt;
+      }
       first = first ? nearer(*first, *sight) : *sight;
     }
     output_channels(*first);
@@ -163,7 +175,9 @@ class Pixel {
   }
 
   std::optional<Sight> look_at(std::size_t surface, std::size_t drawn) {
-    const Program f = drawn_function(model_, surface);
+    const auto searchable = searchable_function(model_, surface, options_.kernel, diagnostics_);
+    if (!searchable) return std::nullopt;
+    const Program& f = *searchable;
     const Method method = choose_method(f, options_.wish, options_.kernel);
     const auto whole = piece_for(f, drawn, *method.inclusion);
     if (!whole) return std::nullopt;
@@ -287,6 +301,15 @@ Program over_domain(const Model& model, const Program& f) {
 
 Program drawn_function(const Model& model, std::size_t surface) {
   return simplified(over_domain(model, model.surfaces[surface].f));
+}
+
+std::optional<Program> searchable_function(const Model& model, std::size_t surface,
+                                           const KernelOptions& options, Diagnostics& diagnostics) {
+  Program f = drawn_function(model, surface);
+  const auto why = far_too_long_to_search(f, options);
+  if (!why) return f;
+  diagnostics.error(model.surfaces[surface].span, why->message);
+  return std::nullopt;
 }
 
 std::vector<std::size_t> drawn_surfaces(const Model& model, const RenderOptions& options) {

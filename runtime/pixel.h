@@ -24,6 +24,10 @@ Program over_domain(const Model& model, const Program& f);
 // That of a surface, simplified: what is searched, in beams and along rays.
 Program drawn_function(const Model& model, std::size_t surface);
 
+// The same; nothing, and an error, where it is so long that no search of it could be run.
+std::optional<Program> searchable_function(const Model& model, std::size_t surface,
+                                           const KernelOptions& options, Diagnostics& diagnostics);
+
 // Of model.surfaces those that are drawn, by index.
 std::vector<std::size_t> drawn_surfaces(const Model& model, const RenderOptions& options);
 

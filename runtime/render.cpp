@@ -28,6 +28,8 @@ std::optional<Pipeline> lowered_stages(const Model& model, const RenderOptions& 
                       [&] { return beams ? beam_stages(model, options, diagnostics) : Pipeline{}; });
   if (!stages) return std::nullopt;
   for (Stage& stage : *stages) {
+    if (far_too_long(stage.program, options.kernel))
+      return lowered_stages(model, options, false, diagnostics, timings);
     stage.program = lowered(std::move(stage.program));
     if (stage.program.graph.size() > most_beam_nodes)
       return lowered_stages(model, options, false, diagnostics, timings);
@@ -35,6 +37,10 @@ std::optional<Pipeline> lowered_stages(const Model& model, const RenderOptions& 
   beams = !stages->empty();
   auto pixel = timed(timings, "compose", [&] { return pixel_program(model, options, diagnostics, beams); });
   if (!pixel) return std::nullopt;
+  if (const auto why = far_too_long(*pixel, options.kernel)) {
+    diagnostics.error(why->span, why->message);
+    return std::nullopt;
+  }
   const std::uint32_t side = beams ? beam_cell : tile;
   stages->push_back({{side, side, 1}, lowered(*std::move(pixel))});
   return stages;

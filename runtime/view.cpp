@@ -248,14 +248,14 @@ std::map<std::string, float> frame_values(const Model& model, const Numbers& num
 }
 
 FrameInputs::FrameInputs(const Model& model, UniformValues uniforms, std::size_t width, std::size_t height)
-    : names_(uniform_names(model)),
-      uniforms_(std::move(uniforms)),
-      values_(frame_values(model, Numbers(model, uniforms_), width, height)) {}
+    : uniforms_(std::move(uniforms)), values_(frame_values(model, Numbers(model, uniforms_), width, height)) {
+  for (const std::string& name : uniform_names(model))
+    places_.try_emplace(uniform_input(name), places_.size());
+}
 
 const void* FrameInputs::operator()(const Input& input) const {
   if (input.type == f32) return &values_.at(input.name);
-  const auto it = std::ranges::find(names_, input.name, uniform_input);
-  return &uniforms_[static_cast<std::size_t>(it - names_.begin())];
+  return &uniforms_[places_.at(input.name)];
 }
 
 }  // namespace imp

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "frontend/model.h"
@@ -44,8 +45,8 @@ class FrameInputs {
   const void* operator()(const Input& input) const;
 
  private:
-  std::vector<std::string> names_;  // of the uniforms
   UniformValues uniforms_;
+  std::unordered_map<std::string, std::size_t> places_;  // of the uniforms, by the name of the input
   std::map<std::string, float> values_;
 };
 

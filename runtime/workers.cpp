@@ -1,12 +1,20 @@
 #include "runtime/workers.h"
 
 #include <algorithm>
+#include <system_error>
 
 namespace imp {
 
 Workers::Workers(unsigned threads) {
   if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
-  for (unsigned i = 1; i < threads; ++i) threads_.emplace_back([this] { serve(); });
+  while (threads_.size() + 1 < threads && add_thread()) {}
+}
+
+bool Workers::add_thread() {
+  try {
+    threads_.emplace_back([this] { serve(); });
+    return true;
+  } catch (const std::system_error&) { return false; }
 }
 
 Workers::~Workers() {

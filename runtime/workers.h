@@ -12,7 +12,8 @@ namespace imp {
 
 class Workers {
  public:
-  explicit Workers(unsigned threads = 0);  // 0: one a core
+  // 0: one a core. There are fewer where the machine starts no more.
+  explicit Workers(unsigned threads = 0);
   ~Workers();
 
   // Runs `job` once in every thread, the caller's among them, and returns when all are done. One job
@@ -22,6 +23,7 @@ class Workers {
   unsigned size() const { return static_cast<unsigned>(threads_.size()) + 1; }
 
  private:
+  bool add_thread();  // false: the machine starts no more
   void serve();
 
   std::mutex one_job_;

@@ -37,6 +37,10 @@ struct Cast {
     job.method = [this, method_for](const Surface& surface) { return method_for(surface, options.wish); };
     job.program = [this, method_for](const Surface& surface, const Wish& wish, Type precision,
                                      Diagnostics& diagnostics) {
+      if (const auto why = far_too_long_to_search(simplified(surface.f), options.kernel)) {
+        diagnostics.error(surface.span, why->message);
+        return std::optional<Program>();
+      }
       const Method method = method_for(surface, wish);
       return cast_program(surface, *method.search, *method.inclusion, options.limits, precision, diagnostics);
     };

@@ -73,6 +73,8 @@ std::optional<std::size_t> choose_surface(const Model& model, const std::string&
   return std::nullopt;
 }
 
+void say(std::string_view text) noexcept { std::fwrite(text.data(), 1, text.size(), stderr); }
+
 void print(const Diagnostics& diagnostics) { fmt::print(stderr, "{}", to_text(diagnostics)); }
 
 void Output::pass_on(bool all) {

@@ -22,6 +22,9 @@ std::optional<Model> read_model(const std::string& path, Diagnostics& diagnostic
 std::optional<std::size_t> choose_surface(const Model& model, const std::string& name,
                                           Diagnostics& diagnostics);
 
+// To standard error, if it can be written: from where nothing may be thrown.
+void say(std::string_view text) noexcept;
+
 // To standard error.
 void print(const Diagnostics& diagnostics);
 

@@ -98,6 +98,9 @@ struct Inspect {
       refuse("--emit", "shows what comes after the passes; --passes and --print-after show what is between");
   }
 
+  // What only the interpreter would run is shown too.
+  const KernelOptions longest{.backend = Backend::interpreter};
+
   // The Program that was asked for, before the passes.
   std::optional<Program> build(const Model& model, Diagnostics& diagnostics) const {
     const Type precision = options.kernel.precision;
@@ -106,8 +109,12 @@ struct Inspect {
     if (!surface) return std::nullopt;
     if (program == "pixel") return pixel(model, {*surface}, diagnostics);
     if (program == "cast") {
-      const Method method =
-          choose_method(simplified(model.surfaces[*surface].f), options.wish, options.kernel);
+      const Program f = simplified(model.surfaces[*surface].f);
+      if (const auto why = far_too_long_to_search(f, longest)) {
+        diagnostics.error(model.surfaces[*surface].span, why->message);
+        return std::nullopt;
+      }
+      const Method method = choose_method(f, options.wish, options.kernel);
       return cast_program(model.surfaces[*surface], *method.search, *method.inclusion, options.limits,
                           precision, diagnostics);
     }
@@ -167,6 +174,8 @@ struct Inspect {
     auto built = build(*model, diagnostics);
     if (!built) return false;
     time("build program", building);
+    if (const auto why = far_too_long(*built, longest))
+      return diagnostics.error(why->span, why->message), false;
     if (all) between << "== before the passes of kernels\n" << to_text(*built);
     const Stopwatch lowering;
     const Program lowered = lower(*std::move(built), options.kernel, &trace);

@@ -5,8 +5,8 @@
 
 namespace imp::tools {
 
-// From now on SIGINT, SIGTERM and SIGHUP wait for what `hold_interrupts` protects. To be called before
-// any other thread is started.
+// From now on all signals that others send to end a process (but SIGKILL) wait for what `hold_interrupts` protects. To
+// be called before any other thread is started.
 void take_interrupts();
 
 // While the lock lives, interrupts wait.

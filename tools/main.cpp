@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <string>
 #include <string_view>
@@ -10,6 +11,8 @@
 #include <fmt/format.h>
 
 #include "ir/diagnostics.h"
+#include "tools/input.h"
+#include "tools/last_words.h"
 #include "tools/verbs.h"
 
 namespace imp::tools {
@@ -103,10 +106,17 @@ int run(const std::vector<std::string>& words) {
 }  // namespace imp::tools
 
 int main(int count, char** words) {
+  using imp::tools::say;
+  imp::tools::prepare_for_the_worst();
   try {
     const int exit = imp::tools::run({words + std::min(count, 1), words + count});
-    if (std::fflush(stdout) == 0) return exit;
-    fmt::print(stderr, "error: cannot write to standard output\n");
-  } catch (const std::exception& problem) { fmt::print(stderr, "error: {}\n", problem.what()); }
-  return imp::tools::failed;
+    if (std::fflush(stdout) != 0)
+      say("error: cannot write to standard output\n");
+    else if (exit == imp::tools::fine)
+      return exit;
+    else
+      std::_Exit(exit);
+  } catch (const std::exception& problem) { say("error: "), say(problem.what()), say("\n"); }
+  std::_Exit(
+      imp::tools::failed);  // nothing is taken down: a module that found no memory may hold the loader's lock
 }

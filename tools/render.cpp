@@ -40,11 +40,10 @@ class Progress {
     if (!lock || watch_.milliseconds() < next_) return;
     next_ = watch_.milliseconds() + 100;
     shown_ = true;
-    fmt::print(stderr, "\rrendering {:3.0f} %", 100 * share);
-    std::fflush(stderr);
+    say(fmt::format("\rrendering {:3.0f} %", 100 * share));
   }
   ~Progress() {
-    if (shown_) fmt::print(stderr, "\r{:16}\r", "");
+    if (shown_) say(fmt::format("\r{:16}\r", ""));
   }
 
  private:
@@ -54,14 +53,6 @@ class Progress {
   std::mutex mutex_;
   bool shown_ = false;
 };
-
-// Before the work: a folder that is not there is better heard of now.
-std::optional<std::string> problem_with(const std::string& path) {
-  const fs::path folder = fs::path(path).parent_path();
-  const bool writable = path == "-" || access(folder.empty() ? "." : folder.c_str(), W_OK | X_OK) == 0;
-  if (writable) return std::nullopt;
-  return fmt::format("cannot write '{}': {}", path, std::strerror(errno));
-}
 
 Image image_of(const Picture& picture, const RenderOptions& wanted) {
   Image image{picture.width, picture.height, {}};
@@ -106,7 +97,7 @@ struct Render {
   void settle() {
     picture.tiles = tiles.value_or(picture.width * picture.height >= least_tiled_picture);
     if (output.empty()) output = file == "-" ? "out.png" : fs::path(file).stem().string() + ".png";
-    const std::string extension = output == "-" ? ".png" : fs::path(output).extension().string();
+    const std::string extension = image_extension(output);
     if (extension != ".png" && extension != ".exr")
       refuse("-o", fmt::format("'{}' is neither .png nor .exr", output));
     const bool further = picture.depth || picture.normal || picture.steps || picture.verdict;
@@ -129,7 +120,8 @@ struct Render {
     const auto uniforms = uniform_values(*model, options.overrides, options.time, diagnostics);
     if (!uniforms) return false;
     if (!check_view(*model, *uniforms, diagnostics)) return false;
-    if (const auto problem = problem_with(output)) return diagnostics.error(*problem), false;
+    if (const auto problem = problem_with_output(output))  // it is better heard of now
+      return diagnostics.error(*problem), false;
 
     RenderOptions all = picture;
     all.workers = std::make_shared<Workers>(threads);
@@ -160,7 +152,8 @@ struct Render {
 
     const Stopwatch writing;
     const auto problem = [&] {
-      const auto held = hold_interrupts();
+      std::unique_lock<std::mutex> held;
+      if (is_replaced(output)) held = hold_interrupts();  // a FIFO may never have a reader
       return write_image(output, image_of(result, picture));
     }();
     if (problem) return diagnostics.error(*problem), false;

@@ -17,6 +17,7 @@ constexpr std::uint64_t operations_of_upward_op = 11;
 // llvmpipe leaves all loops of a shader, without a word, after 65535 steps in all.
 constexpr std::uint64_t most_steps = 65535;
 constexpr std::uint32_t longest_table = 1024;
+constexpr std::size_t most_inputs = 1000;  // of which the time of a driver's compiler takes the square
 
 constexpr std::uint64_t many = std::uint64_t{1} << 31;  // of it 2^32 times are still a number
 
@@ -67,6 +68,9 @@ std::optional<Refusal> count(const Program& program, Count& total) {
 }  // namespace
 
 std::optional<Refusal> glsl_refusal(const Program& program) {
+  if (program.inputs.size() > most_inputs)
+    return Refusal{fmt::format("this has {} inputs, and a shader has at most {}; use --backend=llvm",
+                               program.inputs.size(), most_inputs)};
   Count total;
   if (auto why = count(program, total)) return why;
   if (total.operations > most_operations)

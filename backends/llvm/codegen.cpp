@@ -2,13 +2,24 @@
 
 #include <llvm/IR/LegacyPassManager.h>
 #include <llvm/MC/TargetRegistry.h>
+#include <llvm/Support/ErrorHandling.h>
 #include <llvm/Support/TargetSelect.h>
 #include <llvm/Support/raw_ostream.h>
 #include <llvm/TargetParser/Host.h>
 
+#include <new>
+
 #include "ir/assert.h"
 
 namespace imp {
+namespace {
+
+// LLVM aborts where memory ends, and where the loader gets none for code; who has said how `new` ends is asked.
+void end_as_new_does(void* /*unused*/, const char* /*reason*/, bool /*crash*/) {
+  if (const auto handler = std::get_new_handler()) handler();
+}
+
+}  // namespace
 
 std::expected<std::unique_ptr<llvm::TargetMachine>, std::string> target_machine(const CpuTarget& target) {
   static const bool initialized = [] {
@@ -16,6 +27,8 @@ std::expected<std::unique_ptr<llvm::TargetMachine>, std::string> target_machine(
     LLVMInitializeX86Target();
     LLVMInitializeX86TargetMC();
     LLVMInitializeX86AsmPrinter();
+    llvm::install_bad_alloc_error_handler(end_as_new_does);
+    llvm::install_fatal_error_handler(end_as_new_does);
     return true;
   }();
   static_cast<void>(initialized);

@@ -4,6 +4,7 @@
 
 #include "tests/prove/bernstein.h"
 #include "tests/prove/elementary.h"
+#include "tests/prove/hostile.h"
 #include "tests/prove/inclusions.h"
 #include "tests/prove/itf1788.h"
 #include "tests/prove/pictures.h"
@@ -61,11 +62,18 @@ int main(int argc, char** argv) {
   CLI::App* ways = app.add_subcommand("bernstein", "the ways to Bernstein coefficients along a ray");
   ways->add_option("--only", bernstein.only, "these surfaces")->delimiter(',');
   ways->add_option("--done", bernstein.done, "a folder that remembers finished rows");
+
+  imp::prove::HostileOptions hostile;
+  CLI::App* input = app.add_subcommand("hostile", "input of every kind that imp did not ask for");
+  input->add_option("--minutes", hostile.minutes, "how long");
+  input->add_option("--seed", hostile.seed, "of what is tried");
+  input->add_option("--done", "of no use here: no case is like another");
   CLI11_PARSE(app, argc, argv);
 
   bool hold = true;
   if (*errors) hold = imp::prove::elementary(elementary);
   if (*shaders) hold = imp::prove::pictures(pictures);
+  if (*input) hold = imp::prove::hostile(hostile);
   if (*itf1788) hold = imp::prove::itf1788(vectors);
   if (*enclosures) hold = imp::prove::inclusions(inclusions);
   if (*rays) hold = imp::prove::searches(searches);

@@ -1,4 +1,5 @@
 // The command as a whole: exit codes, help, and what is refused by name.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "passes/extend/inclusion.h"
@@ -113,6 +114,28 @@ TEST(Command, says_when_output_cannot_be_written) {
     EXPECT_EQ(answer.exit, 1) << words[0];
     EXPECT_NE(answer.err.find("cannot write to standard output"), std::string::npos) << answer.err;
   }
+}
+
+TEST(Command, refuses_what_is_too_long_before_the_passes) {
+  const Folder folder;
+  const std::string file = folder.write("s.imp", "y = sum(i, 1, 7000, sin(i*x)/i)\n");
+  const std::string rays = folder.write("r.csv", "ox,oy,oz,dx,dy,dz,tmin,tmax\n0,0,-5,0,0,1,0,10\n");
+  const std::string picture = folder / "s.png";
+  for (const auto& words : std::vector<std::vector<std::string>>{{"cast", file, "--rays", rays},
+                                                                 {"render", file, "-o", picture},
+                                                                 {"inspect", file, "--program", "cast"}}) {
+    const CommandAnswer answer = test::imp(words);
+    EXPECT_EQ(answer.exit, 1) << words[0];
+    EXPECT_NE(answer.err.find("s.imp:1:1: error: this takes at least "), std::string::npos) << answer.err;
+  }
+  std::string parameters, surfaces;
+  for (int i = 0; i < 1100; ++i) parameters += "param p" + std::to_string(i) + " = 1\n";
+  const CommandAnswer shader =
+      test::imp({"render", "-", "-o", picture, "--backend=glsl", "--size=8x8"}, parameters + "x = 0\n");
+  EXPECT_NE(shader.err.find("inputs, and a shader has at most 1000"), std::string::npos) << shader.err;
+  for (int i = 0; i < 2000; ++i) surfaces += fmt::format("surface s{0}: x - {0}\n", i);
+  const CommandAnswer many = test::imp({"render", "-", "-o", picture, "--size=8x8"}, surfaces);
+  EXPECT_NE(many.err.find("of 2000, the picture takes too many operations"), std::string::npos) << many.err;
 }
 
 TEST(Command, lists_what_there_is) {
