@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "tests/prove/attack.h"
 #include "tests/prove/bernstein.h"
 #include "tests/prove/elementary.h"
 #include "tests/prove/inclusions.h"
@@ -61,6 +62,14 @@ int main(int argc, char** argv) {
   CLI::App* ways = app.add_subcommand("bernstein", "the ways to Bernstein coefficients along a ray");
   ways->add_option("--only", bernstein.only, "these surfaces")->delimiter(',');
   ways->add_option("--done", bernstein.done, "a folder that remembers finished rows");
+
+  imp::prove::AttackTableOptions attack;
+  CLI::App* attacks = app.add_subcommand("attack", "certified answers about random formulas, against proofs");
+  attacks->add_option("--minutes", attack.minutes, "how long; without it --rounds says how much");
+  attacks->add_option("--rounds", attack.rounds, "random files");
+  attacks->add_option("--seed", attack.seed, "of what is random");
+  attacks->add_option("--shrink", attack.shrink, "tries to make shorter what is answered wrong");
+  attacks->add_option("--done", "of no use here: there are no rows to remember");
   CLI11_PARSE(app, argc, argv);
 
   bool hold = true;
@@ -71,6 +80,7 @@ int main(int argc, char** argv) {
   if (*rays) hold = imp::prove::searches(searches);
   if (*catalogue) hold = imp::prove::surfaces(surfaces);
   if (*ways) hold = imp::prove::bernstein(bernstein);
+  if (*attacks) hold = imp::prove::attack(attack);
   if (*tightness) hold = imp::prove::tightness(surfaces);
   return hold ? 0 : 1;
 }
