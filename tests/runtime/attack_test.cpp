@@ -37,7 +37,7 @@ class Sample : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(Sample, is_answered_right) {
   test::AttackTotal total;
-  for (std::size_t i = 0; i < test::effort(10); ++i) total.add(test::attack(GetParam() + parts * i));
+  for (std::size_t i = 0; i < test::effort(6); ++i) total.add(test::attack(GetParam() + parts * i));
   for (const AttackCase& wrong : total.wrong)
     ADD_FAILURE() << to_text(wrong) << '\n' << test::judged(wrong).text;
   for (const test::AttackCount& count : {total.by[0], total.by[1]})

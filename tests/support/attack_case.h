@@ -1,5 +1,5 @@
-// One question of the attack, as a line of text: a ray, a box or a picture, the options, and the file that is asked
-// about; and whether the answer is right.
+// One question of the attack, as a line of text: a ray, a box or a picture, the options, and the file that is
+// asked about; and whether the answer is right.
 //
 //   ray 0,5e6,-3,0,0,1,0,6 precision=double : z + sin(y)
 //   box -1,1,0,1,0,0,-1,0.5,0 backend=glsl inclusion=ia : sqrt(x)*z/sqrt(x)        a box, and a point in it
@@ -75,8 +75,8 @@ inline Proof proof_of(const RealFunction& f, std::span<const double> uniforms, c
   return Real(answer.lo) <= value.lo && value.hi <= Real(answer.hi) ? Proof::right : Proof::open;
 }
 
-// Whether f jumps on the way from one point to another: its values stay apart down to 2^-1200 of the way, where the
-// steepest slopes of numbers that a kernel knows have closed.
+// Whether f jumps on the way from one point to another: its values stay apart down to 2^-1200 of the way, where
+// the steepest slopes of numbers that a kernel knows have closed.
 inline bool jumps_between(const RealFunction& f, std::span<const double> uniforms,
                           const std::array<double, 3>& p, const std::array<double, 3>& q) {
   Ray way{p, {}, 0, 1};

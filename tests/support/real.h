@@ -1,5 +1,5 @@
-// Ends of sets of real numbers: binary numbers of 128 bits and any exponent (Arb), rounded to the side that is asked
-// for; infinities are ends.
+// Ends of sets of real numbers: binary numbers of 128 bits and any exponent (Arb), rounded to the side that is
+// asked for; infinities are ends.
 #pragma once
 
 #include <arb.h>
@@ -65,7 +65,7 @@ inline Real infinite(Toward side) {
   return result;
 }
 
-// Sums, products and quotients; what is infinite times zero is 0: the infinity is the limit of finite numbers.
+// Sums, products and quotients. Infinity times zero is 0: the infinity is the limit of finite numbers.
 inline Real add(const Real& a, const Real& b, Toward side) {
   Real result;
   arf_add(result.get(), a.get(), b.get(), Real::precision, rounding(side));

@@ -1,8 +1,8 @@
-// What a part of a formula can be while its variables run through intervals, and one rule a function for it: by the
-// meanings of docs/language.md, on real numbers.
+// The values of a part of a formula while its variables run through intervals, and a rule for every function: by
+// the meanings of docs/language.md, on real numbers.
 //
-// Where an argument meets a jump, a pole or the end of a domain, a rule chooses one of the ways it can go (Choices);
-// who runs through all of them gets a list of sets that hold every value, so that a jump over 0 is no root.
+// At a jump or a pole a rule chooses one side of it (Choices). All choices together give sets that hold every
+// value, so that a jump over 0 is no root.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// A file of the attack: parameters, the time and formulas as trees, and the lines of a picture, which are left as
+// A file of the attack: parameters, the time and formulas as trees; the lines of domain and camera are left as
 // they are.
 #pragma once
 
