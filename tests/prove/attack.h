@@ -12,8 +12,8 @@ struct AttackTableOptions {
   std::size_t shrink = 300;  // tries to make shorter what is wrong
 };
 
-// Prints a table in Markdown, and each wrong answer on standard error, as a line for tests/data/attack.txt. False if
-// there is one.
+// Prints a table in Markdown, and each wrong answer on standard error, as a line for tests/data/attack.txt.
+// False if there is one.
 bool attack(const AttackTableOptions& options);
 
 }  // namespace imp::prove

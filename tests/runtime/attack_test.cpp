@@ -1,10 +1,11 @@
-// Nothing that was ever answered wrong is answered so again, and a part of the attack finds nothing: `imp_prove
-// attack` goes on for as long as it is told.
+// Nothing that was ever answered wrong is answered so again, and a part of the attack finds nothing:
+// `imp_prove attack` goes on for as long as it is told.
 #include <gtest/gtest.h>
 
 #include <fstream>
 
 #include "tests/support/attack.h"
+#include "tests/support/ball.h"
 #include "tests/support/effort.h"
 
 namespace imp {
@@ -74,6 +75,44 @@ TEST(RayTruth, tells_wrong_answers_from_right_ones) {
   EXPECT_EQ(proof("x^0.3 + 0.125", ray, verdict_hit, -0.5), Proof::wrong);
   EXPECT_EQ(proof("min(log(x), x + 1)", ray, verdict_hit, -1), Proof::right)
       << "the second where there is no first";
+}
+
+// Sets hold the values at the places they are of, and these are the values of the formula that was compiled.
+TEST(RealFunction, holds_the_values_of_a_formula) {
+  std::size_t compared = 0;
+  for (std::uint64_t seed = 0; seed < test::effort(2000); ++seed) {
+    test::RandomScenes scenes(seed);
+    const test::Scene scene = scenes.next();
+    const auto meaning = test::meaning_of(scene);
+    if (!meaning) continue;
+    test::RandomQuestions questions(seed, scenes.aim());
+    const test::RealBox box = questions.box();
+    std::vector<test::RealSet> sides, place;
+    std::vector<double> numbers;
+    for (std::size_t i = 0; const double x : questions.inside(box)) {
+      sides.push_back({test::Real(box[2 * i]), test::Real(box[2 * i + 1])});
+      place.push_back({test::Real(x), test::Real(x)});
+      numbers.push_back(x), ++i;
+    }
+    for (const double x : meaning->uniforms) {
+      sides.push_back({test::Real(x), test::Real(x)}), place.push_back(sides.back());
+      numbers.push_back(x);
+    }
+    const test::RealFunction& f = meaning->functions[0];
+    const test::Outcome over = f(sides), at = f(place);
+    if (!at.defined) continue;
+    EXPECT_FALSE(over.nowhere) << seed;
+    EXPECT_TRUE(over.lo <= at.hi && at.lo <= over.hi) << seed;
+    const test::Ball ball = test::ball_values(meaning->model.surfaces[0].f, numbers).front();
+    if (!ball.is(test::Ball::State::number)) continue;
+    test::Real lo, hi;
+    arb_get_interval_arf(lo.get(), hi.get(), ball.get(), test::Real::precision);
+    EXPECT_TRUE(at.lo <= hi && lo <= at.hi)
+        << seed << ": " << to_text(scene) << " at " << fmt::format("{}", fmt::join(numbers, ",")) << " is "
+        << lo.nearest() << ", not " << at.lo.nearest();
+    ++compared;
+  }
+  EXPECT_GT(compared, test::effort(1000));
 }
 
 TEST(Expression, is_read_as_it_is_written) {

@@ -1,5 +1,5 @@
-// The attack: random files, random questions, by ways at random; every certified answer is held against what is
-// proven of real numbers.
+// The attack: random files, random questions, by ways at random; every certified answer is held against what
+// is proven of real numbers.
 #pragma once
 
 #include "backends/llvm/target.h"

@@ -75,8 +75,8 @@ inline Proof proof_of(const RealFunction& f, std::span<const double> uniforms, c
   return Real(answer.lo) <= value.lo && value.hi <= Real(answer.hi) ? Proof::right : Proof::open;
 }
 
-// Whether f jumps on the way from one point to another: its values stay apart down to 2^-1200 of the way, where
-// the steepest slopes of numbers that a kernel knows have closed.
+// Whether f jumps on the way from one point to another: its values stay apart down to 2^-1200 of the way,
+// where the steepest slopes of numbers that a kernel knows have closed.
 inline bool jumps_between(const RealFunction& f, std::span<const double> uniforms,
                           const std::array<double, 3>& p, const std::array<double, 3>& q) {
   Ray way{p, {}, 0, 1};

@@ -1,5 +1,5 @@
-// The options of one answer, as words on a command line; and the answers: what `imp cast` and `imp eval` do, with
-// the second look.
+// The options of one answer, as words on a command line; and the answers: what `imp cast` and `imp eval` do,
+// with the second look.
 #pragma once
 
 #include "passes/surface_passes.h"

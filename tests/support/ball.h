@@ -125,7 +125,7 @@ struct BallRules {
     const auto power = [&](arb_ptr r, arb_srcptr x, slong bits) {
       arb_pow_ui(r, x, static_cast<ulong>(std::abs(exponent)), bits);
     };
-    if (exponent == 0) return Ball(1.0);  // whatever a is
+    if (exponent == 0) return a.is(State::number) ? Ball(1.0) : a;
     return exponent > 0 ? call(power, a) : div(Ball(1.0), call(power, a));
   }
 

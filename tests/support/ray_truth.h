@@ -1,5 +1,5 @@
-// What is proven of the roots of a formula along a ray, by bisection with sets of real numbers, and what that says
-// of an answer. What takes more than the effort stays open.
+// What is proven of the roots of a formula along a ray, by bisection with sets of real numbers, and what that
+// says of an answer. What takes more than the effort stays open.
 #pragma once
 
 #include <array>

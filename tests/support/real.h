@@ -1,5 +1,5 @@
-// Ends of sets of real numbers: binary numbers of 128 bits and any exponent (Arb), rounded to the side that is
-// asked for; infinities are ends.
+// Ends of sets of real numbers: binary numbers of 128 bits and any exponent (Arb), rounded to the side that
+// is asked for; infinities are ends.
 #pragma once
 
 #include <arb.h>

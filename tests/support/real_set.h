@@ -1,5 +1,5 @@
-// The values of a part of a formula while its variables run through intervals, and a rule for every function: by
-// the meanings of docs/language.md, on real numbers.
+// The values of a part of a formula while its variables run through intervals, and a rule for every function:
+// by the meanings of docs/language.md, on real numbers.
 //
 // At a jump or a pole a rule chooses one side of it (Choices). All choices together give sets that hold every
 // value, so that a jump over 0 is no root.

@@ -1,5 +1,5 @@
-// A file of the attack: parameters, the time and formulas as trees; the lines of domain and camera are left as
-// they are.
+// A file of the attack: parameters, the time and formulas as trees; the lines of domain and camera are left
+// as they are.
 #pragma once
 
 #include <optional>
