@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "tests/prove/attack.h"
 #include "tests/prove/bernstein.h"
 #include "tests/prove/elementary.h"
 #include "tests/prove/hostile.h"
@@ -68,6 +69,14 @@ int main(int argc, char** argv) {
   input->add_option("--minutes", hostile.minutes, "how long");
   input->add_option("--seed", hostile.seed, "of what is tried");
   input->add_option("--done", "of no use here: no case is like another");
+
+  imp::prove::AttackTableOptions attack;
+  CLI::App* attacks = app.add_subcommand("attack", "certified answers about random formulas, against proofs");
+  attacks->add_option("--minutes", attack.minutes, "how long; without it --rounds says how much");
+  attacks->add_option("--rounds", attack.rounds, "random files");
+  attacks->add_option("--seed", attack.seed, "of what is random");
+  attacks->add_option("--shrink", attack.shrink, "tries to make shorter what is answered wrong");
+  attacks->add_option("--done", "of no use here: there are no rows to remember");
   CLI11_PARSE(app, argc, argv);
 
   bool hold = true;
@@ -79,6 +88,7 @@ int main(int argc, char** argv) {
   if (*rays) hold = imp::prove::searches(searches);
   if (*catalogue) hold = imp::prove::surfaces(surfaces);
   if (*ways) hold = imp::prove::bernstein(bernstein);
+  if (*attacks) hold = imp::prove::attack(attack);
   if (*tightness) hold = imp::prove::tightness(surfaces);
   return hold ? 0 : 1;
 }
