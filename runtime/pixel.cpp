@@ -31,6 +31,7 @@ struct Sight {
   Truth something;
   Expr t;         // the distance from the origin of the ray, f32
   Expr begin;     // no root lies before it; infinite where there is none, -infinite where nothing is known
+  Expr end;       // of a hit: its root does not lie behind it
   Vector normal;  // of length 1, f32; along the ray where f has no gradient
 };
 
@@ -204,13 +205,15 @@ class Pixel {
     const Expr verdict = to(f32, verdict_with(root, found->verdict));
     const auto distance = [&](Expr share) { return piece.near + to(f32, share) * (piece.far - piece.near); };
     const Expr nowhere = constant_like(verdict, infinity);
+    const Truth is_hit = equal(verdict, constant_like(verdict, verdict_hit));
     const Expr begin =
-        select(found->something && certain, distance(found->bracket.a),
+        select(found->something && certain, distance(select(is_hit, root.lo, found->bracket.a)),
                select(equal(verdict, constant_like(verdict, verdict_miss)), nowhere, -nowhere));
-    return Sight{verdict, to(f32, found->steps), found->something, distance(s), begin, normal};
+    return Sight{verdict, to(f32, found->steps), found->something, distance(s), begin, distance(root.hi),
+                 normal};
   }
 
-  // The first of two. A hit is certified if no root of the other surface can lie before it.
+  // The first of two. A hit is certified if no root of the other surface can lie before it, by the brackets of both.
   Sight nearer(const Sight& a, const Sight& b) const {
     const auto place = [](const Sight& sight) {
       return select(sight.something, sight.t, constant_like(sight.t, infinity));
@@ -218,14 +221,15 @@ class Pixel {
     const Truth a_first = place(a) <= place(b);
     const auto pick = [&](Expr p, Expr q) { return select(a_first, p, q); };
     const Expr first = pick(a.verdict, b.verdict), other = pick(b.verdict, a.verdict);
-    // What a hit's place may be off, and more.
-    const Expr off = 2 * certified_length * (clip_.far - clip_.near) + 0x1p-20 * clip_.far;
-    const Truth certain = other >= verdict_miss || pick(b.begin, a.begin) - pick(a.t, b.t) > off;
+    const Expr rounding = 0x1p-20 * clip_.far;
+    const Truth misses = equal(other, constant_like(other, verdict_miss));
+    const Truth certain = misses || pick(b.begin, a.begin) - pick(a.end, b.end) > rounding;
     Sight result;
     result.verdict = select(certain, first, constant_like(first, verdict_undecided));
     result.something = a.something || b.something;
     result.t = pick(a.t, b.t);
     result.begin = min(a.begin, b.begin);
+    result.end = pick(a.end, b.end);
     result.steps = a.steps + b.steps;
     for (std::size_t i = 0; i < 3; ++i) result.normal[i] = pick(a.normal[i], b.normal[i]);
     return result;

@@ -88,8 +88,9 @@ struct AlongRay {
   }
 
   Interval naturally(const Program& g, const Interval& s) const {
+    const auto& others = s.hi.type() == bounds[0].hi.type() ? bounds : wide_bounds;
     std::vector<Interval> sides{s};
-    sides.insert(sides.end(), bounds.begin(), bounds.end());
+    sides.insert(sides.end(), others.begin(), others.end());
     Diagnostics unused;
     const auto result = imp::enclose(g, sides, unused, domain);
     IMP_ASSERT(result.has_value(), "a rule for every op, as tried before");
@@ -177,6 +178,7 @@ std::optional<RayFunction> ray_function(const Program& f, const Segment& segment
       .bound = [ray](const Interval& s) { return ray->enclose_f(s); },
       .slope_bound = [ray](const Interval& s) { return ray->enclose(ray->slope, s); },
       .bound_at = [ray](Expr s) { return ray->enclose_at(s); },
+      .bound_in_double = [ray](Expr s) { return ray->enclose_at(to(f64, s)); },
       .value = [ray](Expr s) { return ray->evaluate(ray->f_rounded, s); },
       .slope = [ray](Expr s) { return ray->evaluate(ray->slope_rounded, s); },
       .value_in_double = [ray](Expr s) { return ray->evaluate_in_double(ray->f_in_double, s); },

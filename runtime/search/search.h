@@ -36,6 +36,7 @@ struct RayFunction {
   std::function<Interval(const Interval& s)> bound;        // encloses f over the piece s
   std::function<Interval(const Interval& s)> slope_bound;  // encloses df/ds
   std::function<Interval(Expr s)> bound_at;                // encloses f at one place: as tight, for less
+  std::function<Interval(Expr s)> bound_in_double;         // the same in f64, whatever the type of s
   std::function<Expr(Expr s)> value;                       // f, rounded
   std::function<Expr(Expr s)> slope;                       // df/ds, rounded
   std::function<Expr(Expr s)> value_in_double;             // f in f64, whatever the type of s

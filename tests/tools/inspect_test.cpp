@@ -53,7 +53,7 @@ TEST(Inspect, shows_every_program) {
       Diagnostics diagnostics;
       const auto shown = parse_program(answer.out, program, diagnostics);
       ASSERT_TRUE(shown) << to_text(diagnostics);
-      const std::size_t phases = precision == "float" ? 3 : 2;  // the last one polishes in double
+      constexpr std::size_t phases = 3;  // of the search, of refinement, and the one that confirms the place
       EXPECT_EQ(shown->phases.size(), program == "cast" || program == "pixel" ? phases : 0U);
       EXPECT_EQ(to_text(*shown), inspect({"--emit=ir", "--program", program, "--precision", precision}).out);
       EXPECT_NE(answer.out.find("\n# total "), std::string::npos);

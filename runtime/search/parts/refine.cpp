@@ -1,11 +1,13 @@
 #include "runtime/search/parts/refine.h"
 
 #include "ir/loop.h"
+#include "runtime/search/parts/proven.h"
 
 namespace imp {
 namespace {
 
-constexpr double close = 0.5 * certified_length;  // the root is to be enclosed in a piece as short
+// How far from s its neighbours may lie that have proven signs; the rest of certified_length is for rounding.
+constexpr double reach = 0.9 * certified_length;
 
 // One step of Newton's method with bisection, from s in [lo, hi].
 struct Step {
@@ -27,7 +29,7 @@ struct Approach {
 };
 
 // In the arithmetic of the kernel. In floats it is left where Newton's method seems to converge, to one step in double:
-// what is wrong about that the probe finds out.
+// what is wrong about that the enclosures find out.
 Approach approach(Program& program, const RayFunction& f, const Bracket& bracket) {
   const bool in_float = f.like.type() == f32;
   const auto& [a, b, sign_a, changes] = bracket;
@@ -62,63 +64,60 @@ Expr corrected(const RayFunction& f, const Bracket& bracket, const Approach& sta
   return select(bracket.a <= s && s <= bracket.b, s, start.s);
 }
 
-// Looks at both sides of s.
-Refined probe(const RayFunction& f, const Bracket& bracket, Expr s) {
-  const Expr lo = max(s - 0.5 * close, bracket.a), hi = min(s + 0.5 * close, bracket.b);
-  const Expr at_lo = f.value_in_double(lo), at_hi = f.value_in_double(hi);
-  const Expr sign_a = to(f64, bracket.sign_a);
-  const Expr secant = to(f32, at_lo / (at_lo - at_hi));
-  const Expr share =
-      select(0 <= secant && secant <= 1, secant, constant_like(secant, 0.5));  // f may be infinite
-  return {lo + share * (hi - lo), bracket.changes && at_lo * sign_a > 0 && at_hi * sign_a < 0};
-}
-
-// Where the probe fails, the same bracket again with f in double. A step that seems to arrive is followed by a look at
-// the other side of the root, and from there further and further. The slope stays as it is: near the root it is as good
-// as another one, and half of what a step would take.
-Refined polish(Program& program, const RayFunction& f, const Bracket& bracket, const Approach& start,
-               Truth wanted) {
+// By proven signs only. The bracket [lo, hi] has them at its ends, and shrinks until s has both ends within `reach`.
+// The first two looks are the neighbours of the place that was proposed. Places without a proven sign form a gap
+// [from, to] in the middle; the larger side beside it is halved, until the gap is too wide to confirm any place.
+//
+//    lo  sign_a          ?   gap   ?          -sign_a  hi
+//   ├───────────────────────┼─────┼──────────────────────┤
+Refined enclose_root(Program& program, const RayFunction& f, const Bracket& bracket, Expr proposed) {
   const auto& [a, b, sign_a, changes] = bracket;
+  const Expr none = constant_like(a, 2);  // behind every place
 
-  Loop loop(program, "polish", 64);
+  Loop loop(program, "confirm", 96);
   const Expr lo = loop.state("lo", a);
   const Expr hi = loop.state("hi", b);
-  const Expr s = loop.state("s", start.s);
-  const Expr last = loop.state("last", b - a);
-  const Expr reach = loop.state("reach", constant_like(a, 0.5 * close));
-  const Expr best = loop.state("best", start.s);
-  const Truth found = loop.state("found", truth_of(program.graph, false));
+  const Expr from = loop.state("from", none);
+  const Expr to_ = loop.state("to", -none);
+  const Expr looks = loop.state("looks", zero(a));
 
-  const Expr value = f.value_in_double(s);
-  const Truth right = value * to(f64, sign_a) > 0;
-  const Expr newton = to(f32, to(f64, s) - value / to(f64, start.slope));
-  const Step step = step_from(s, lo, hi, last, right, newton);
-  const Expr length = abs(step.next - s);
-  const Truth enclosed = step.hi - step.lo <= close;
-  const Truth arrives = step.by_newton && length < 0.25 * close && !enclosed;
-  const Expr other_side = step.next + select(right, reach, -reach);
-  const Truth inside = step.lo < other_side && other_side < step.hi;
-  loop.next(lo, step.lo);
-  loop.next(hi, step.hi);
-  loop.next(s, select(arrives, select(inside, other_side, 0.5 * (step.lo + step.hi)), step.next));
-  loop.next(last, select(arrives, step.hi - step.lo, length));
-  loop.next(reach, select(arrives, 8.0 * reach, reach));
-  loop.next(best, step.next);
-  loop.next(found, enclosed && equal(value, value));
-  loop.enter_if(wanted);
-  loop.again_while(equal(value, value) && !enclosed);
-  return {loop.result(best), loop.result(found)};
+  const Truth gap = from <= to_;
+  const Truth left_is_larger = from - lo > hi - to_;
+  const Expr middle =
+      select(gap, select(left_is_larger, 0.5 * (lo + from), 0.5 * (to_ + hi)), 0.5 * (lo + hi));
+  const Expr wanted = select(looks < 0.5, proposed - reach, select(looks < 1.5, proposed + reach, middle));
+  const Expr place = select(lo < wanted && wanted < hi, wanted, middle);
+  const Expr sign = proven_sign(f.bound_in_double(place));
+  const Truth left = sign * to(f64, sign_a) > 0, right = sign * to(f64, sign_a) < 0;
+  const Truth unknown = !left && !right;
+
+  // A proven sign beyond the gap takes it away: there is another root, and this one is as good.
+  const Expr next_lo = select(left, place, lo), next_hi = select(right, place, hi);
+  const Truth kept = gap && next_lo <= from && to_ <= next_hi;
+  const Expr next_from = select(unknown, min(from, place), select(kept, from, none));
+  const Expr next_to = select(unknown, max(to_, place), select(kept, to_, -none));
+  loop.next(lo, next_lo);
+  loop.next(hi, next_hi);
+  loop.next(from, next_from);
+  loop.next(to_, next_to);
+  loop.next(looks, looks + 1.0);
+  const auto close = [](Expr left_end, Expr right_end) { return right_end - left_end <= 2 * reach; };
+  loop.enter_if(changes && !close(a, b));
+  loop.again_while(!close(next_lo, next_hi) && !(next_to - next_from > 2 * reach));
+
+  const Expr first = loop.result(lo), last = loop.result(hi);
+  const Expr s = min(max(proposed, max(first, last - reach)), min(last, first + reach));
+  const Truth enclosed = changes && close(first, last);
+  return {select(enclosed, s, 0.5 * (first + last)), first, last, enclosed};
 }
 
 }  // namespace
 
 Refined refine(Program& program, const RayFunction& f, const Bracket& bracket) {
   const Approach start = approach(program, f, bracket);
-  if (f.like.type() == f64) return {start.s, bracket.changes};
-  const Expr s = corrected(f, bracket, start);
-  const Refined seen = probe(f, bracket, s);
-  const Refined polished = polish(program, f, bracket, {s, start.slope}, bracket.changes && !seen.enclosed);
-  return {select(seen.enclosed, seen.s, polished.s), seen.enclosed || polished.enclosed};
+  const Expr s = f.like.type() == f64 ? start.s : corrected(f, bracket, start);
+  return enclose_root(program, f, bracket,
+                      select(bracket.a <= s && s <= bracket.b, s, 0.5 * (bracket.a + bracket.b)));
 }
 
 Expr verdict_with(const Refined& root, Expr verdict) {

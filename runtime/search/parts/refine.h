@@ -7,13 +7,15 @@ namespace imp {
 
 struct Refined {
   Expr s;
-  Truth enclosed;  // in f64: f changes its sign; in f32: within half of certified_length of s
+  Expr lo, hi;  // what is left of the bracket; where `enclosed`, f has proven, opposite signs at its ends
+  Truth
+      enclosed;  // enclosures of f in f64 have opposite signs on both sides of s, within certified_length of it
 };
 
-// Appends phases that run Newton's method inside the bracket, and bisect where a step leaves it or does not halve the
-// last one (stiff f, such as x^500). In floats f in double looks at both sides of what comes out, and where its signs do
-// not say that the root is within certified_length, a second phase goes on in double until they do: near a tangent
-// the rounding of f moves a root by more than that of s. Answers the middle of a bracket without a change of sign.
+// Appends phases that find the root of a bracket in which f changes its sign. Newton's method on values proposes a
+// place; bisection steps in where a step leaves the bracket or does not halve the last one (stiff f, such as x^500).
+// Enclosures in double then look at both sides of it, and bisect where their signs do not confirm the place: values may
+// be NaN, or wrong by more than f varies. Answers the middle of a bracket without a change of sign.
 Refined refine(Program& program, const RayFunction& f, const Bracket& bracket);
 
 // A hit whose place is not known as well as is promised is undecided.

@@ -82,6 +82,7 @@ Program search_with(const Search& search, Wrong wrong) {
       .bound = bound,
       .slope_bound = [=](const Interval&) { return wrong.slopes ? replaced : slope; },
       .bound_at = [=](Expr s) { return bound(point(s)); },
+      .bound_in_double = {},
       .value = f,
       .slope = [](Expr s) { return 2.0 * one(s); },
       .value_in_double = [=](Expr s) { return f(to(f64, s)); },

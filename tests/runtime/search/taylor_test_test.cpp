@@ -24,6 +24,7 @@ class Tested {
     const RayFunction f{.bound = {},
                         .slope_bound = {},
                         .bound_at = {},
+                        .bound_in_double = {},
                         .value = [=](Expr s) { return square(s - p) - c + k * square(square(s - p)); },
                         .slope = [=](Expr s) { return 2.0 * (s - p) + 4.0 * k * (s - p) * square(s - p); },
                         .value_in_double = {},
