@@ -11,7 +11,7 @@ namespace {
 
 // Where the coefficients along a ray cost more than they tell.
 constexpr std::uint32_t highest_degree = 12;
-constexpr double least_operations = 1.5;  // of f, for each degree
+constexpr double operations_for_a_degree = 1.5;  // of f, for each degree
 
 constexpr double most_in_a_shader = 30;  // operations of f, for any form but intervals
 
@@ -43,7 +43,7 @@ void choose_search(Method& method, const Program& f, const KernelOptions& kernel
   if (!n || kernel.backend == Backend::glsl || kernel.precision == f64) return;
   const double count = operations(f);
   const std::string found = fmt::format("degree {}, {} operations: ", *n, count);
-  if (*n <= highest_degree && count >= least_operations * *n) {
+  if (*n <= highest_degree && count >= operations_for_a_degree * *n) {
     method.search = search_named("bernstein");
     method.reason = found + "the signs of a few coefficients along a ray decide";
   } else {

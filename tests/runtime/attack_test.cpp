@@ -22,21 +22,21 @@ std::vector<AttackCase> corpus() {
   return cases;
 }
 
-class Corpus : public testing::TestWithParam<std::size_t> {};
+class AttackCorpus : public testing::TestWithParam<std::size_t> {};
 
-TEST_P(Corpus, is_answered_right) {
+TEST_P(AttackCorpus, is_answered_right) {
   const AttackCase attack = corpus()[GetParam()];
   const auto [proof, answer] = test::judged(attack);
   EXPECT_NE(proof, Proof::wrong) << to_text(attack) << '\n' << answer;
 }
 
-INSTANTIATE_TEST_SUITE_P(Attack, Corpus, testing::Range<std::size_t>(0, corpus().size()));
+INSTANTIATE_TEST_SUITE_P(Attack, AttackCorpus, testing::Range<std::size_t>(0, corpus().size()));
 
 constexpr std::size_t parts = 16;
 
-class Sample : public testing::TestWithParam<std::size_t> {};
+class AttackSample : public testing::TestWithParam<std::size_t> {};
 
-TEST_P(Sample, is_answered_right) {
+TEST_P(AttackSample, is_answered_right) {
   test::AttackTotal total;
   for (std::size_t i = 0; i < test::effort(6); ++i) total.add(test::attack(GetParam() + parts * i));
   for (const AttackCase& wrong : total.wrong)
@@ -45,7 +45,7 @@ TEST_P(Sample, is_answered_right) {
     EXPECT_GT(count.right, count.certified / 2) << "the reference proves too little";
 }
 
-INSTANTIATE_TEST_SUITE_P(Attack, Sample, testing::Range<std::size_t>(0, parts));
+INSTANTIATE_TEST_SUITE_P(Attack, AttackSample, testing::Range<std::size_t>(0, parts));
 
 // The reference itself, on answers that are made up.
 TEST(RayTruth, tells_wrong_answers_from_right_ones) {
