@@ -16,7 +16,7 @@ namespace {
 // An exception would have to pass through code that knows none (LLVM, GMP) and through every thread, and unwinding
 // takes memory itself. No file is half-written then: writing allocates nothing between open and rename.
 [[noreturn]] void end_with(std::string_view message) {
-  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, message.data(), message.size());
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, message.data(), message.size());
   _exit(1);
 }
 
