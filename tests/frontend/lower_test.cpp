@@ -84,7 +84,7 @@ TEST(Lowering, bounds_what_it_decides_exactly) {
   EXPECT_EQ(root("x^(0.1^100000*10^100000)"), "pow input mul");
   EXPECT_EQ(root("x^((1/3)^1000000)"), "pow input powi");
   EXPECT_EQ(root("x^(2^1000 - 2^1000 + 2)"), "powi input 2");
-  EXPECT_EQ(root("x^sum(i, 1, 20000, 1/i)").substr(0, 9), "pow input");
+  EXPECT_EQ(root("x^sum(i, 1, 14000, 1/i)").substr(0, 9), "pow input");
   EXPECT_EQ(root("x^(4^(1/1048577) + 2^-1048576)").substr(0, 9), "pow input");
 }
 

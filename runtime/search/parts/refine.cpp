@@ -1,13 +1,15 @@
 #include "runtime/search/parts/refine.h"
 
+#include <limits>
+
 #include "ir/loop.h"
 #include "runtime/search/parts/proven.h"
 
 namespace imp {
 namespace {
 
-// How far from s its neighbours may lie that have proven signs; the rest of certified_length is for rounding.
-constexpr double reach = 0.9 * certified_length;
+// How far from s its neighbours with proven signs may lie: half of what is promised, so that pictures are exact.
+constexpr double reach = 0.45 * certified_length;
 
 // One step of Newton's method with bisection, from s in [lo, hi].
 struct Step {
@@ -80,6 +82,9 @@ Refined enclose_root(Program& program, const RayFunction& f, const Bracket& brac
   const Expr from = loop.state("from", none);
   const Expr to_ = loop.state("to", -none);
   const Expr looks = loop.state("looks", zero(a));
+  // About f at both ends, for a secant in between; NaN: not known.
+  const Expr unknown_value = to(f64, constant_like(a, std::numeric_limits<double>::quiet_NaN()));
+  const Expr at_lo = loop.state("at_lo", unknown_value), at_hi = loop.state("at_hi", unknown_value);
 
   const Truth gap = from <= to_;
   const Truth left_is_larger = from - lo > hi - to_;
@@ -87,7 +92,8 @@ Refined enclose_root(Program& program, const RayFunction& f, const Bracket& brac
       select(gap, select(left_is_larger, 0.5 * (lo + from), 0.5 * (to_ + hi)), 0.5 * (lo + hi));
   const Expr wanted = select(looks < 0.5, proposed - reach, select(looks < 1.5, proposed + reach, middle));
   const Expr place = select(lo < wanted && wanted < hi, wanted, middle);
-  const Expr sign = proven_sign(f.bound_in_double(place));
+  const Interval bound = f.bound_in_double(place);
+  const Expr sign = proven_sign(bound), value = 0.5 * (bound.hi - bound.nlo);
   const Truth left = sign * to(f64, sign_a) > 0, right = sign * to(f64, sign_a) < 0;
   const Truth unknown = !left && !right;
 
@@ -101,12 +107,16 @@ Refined enclose_root(Program& program, const RayFunction& f, const Bracket& brac
   loop.next(from, next_from);
   loop.next(to_, next_to);
   loop.next(looks, looks + 1.0);
+  loop.next(at_lo, select(left, value, at_lo));
+  loop.next(at_hi, select(right, value, at_hi));
   const auto close = [](Expr left_end, Expr right_end) { return right_end - left_end <= 2 * reach; };
   loop.enter_if(changes && !close(a, b));
   loop.again_while(!close(next_lo, next_hi) && !(next_to - next_from > 2 * reach));
 
   const Expr first = loop.result(lo), last = loop.result(hi);
-  const Expr s = min(max(proposed, max(first, last - reach)), min(last, first + reach));
+  const Expr share = to(a.type(), loop.result(at_lo) / (loop.result(at_lo) - loop.result(at_hi)));
+  const Expr better = select(0 <= share && share <= 1, first + share * (last - first), proposed);
+  const Expr s = min(max(better, max(first, last - reach)), min(last, first + reach));
   const Truth enclosed = changes && close(first, last);
   return {select(enclosed, s, 0.5 * (first + last)), first, last, enclosed};
 }
