@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <linux/magic.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <sys/vfs.h>
 #include <unistd.h>
@@ -40,7 +41,19 @@ std::vector<fs::path> module_places() {
   return {executable / "imp_image.so", executable / "../lib/imp/imp_image.so"};
 }
 
+// Libraries behind the module start threads while they are loaded, and wait for ever where one of these cannot start.
+bool has_room_for_module() {
+  constexpr std::size_t enough = std::size_t{512}
+                                 << 20;  // of address space; libraries and stacks take 400 MiB
+  void* const room = mmap(nullptr, enough, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (room == MAP_FAILED) return false;
+  munmap(room, enough);
+  return true;
+}
+
 Module load_module() {
+  if (!has_room_for_module())
+    return std::unexpected("no module for images: too little memory is left to load it");
   // A library that was compiled for speed alone may set the thread to flush denormals when it is loaded.
   std::fenv_t environment;
   std::fegetenv(&environment);
