@@ -43,8 +43,7 @@ std::vector<fs::path> module_places() {
 
 // Libraries behind the module start threads while they are loaded, and wait for ever where one of these cannot start.
 bool has_room_for_module() {
-  constexpr std::size_t enough = std::size_t{512}
-                                 << 20;  // of address space; libraries and stacks take 400 MiB
+  constexpr std::size_t enough = 640 << 20;  // of address space; libraries and stacks take 540 MiB
   void* const room = mmap(nullptr, enough, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (room == MAP_FAILED) return false;
   munmap(room, enough);
