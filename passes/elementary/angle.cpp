@@ -26,28 +26,33 @@ constexpr double half_tangent_f64[] = {0x1.5555555555574p-4,  0x1.111111110d2dep
                                        0x1.664f46a92ecffp-14, 0x1.226e908ee216cp-17, 0x1.d6beaf0570675p-21,
                                        0x1.7f232e8e464bdp-24, 0x1.25229d140c956p-27, 0x1.58b70a219c64ep-30};
 
-// pi/2 as a sum. The first three have so few digits that their products with the number of quarter turns
+// pi/2 as a sum. All but the last have so few digits that their products with the number of quarter turns
 // of the largest angle are exact.
 constexpr double quarter_turn_f32[] = {0x1.92p0, 0x1.fb4p-12, 0x1.444p-24, 0x1.68c234p-39};
-constexpr double quarter_turn_f64[] = {0x1.921fb544p0, 0x1.0b46p-34, 0x1.1a62633p-54, 0x1.45c06e0e68948p-86};
+constexpr double quarter_turn_f64[] = {0x1.921fb4p0, 0x1.4442dp-24, 0x1.84698p-48, 0x1.3198ap-69,
+                                       0x1.701b839a25205p-92};
 
 constexpr double two_over_pi = 0x1.45f306dc9c883p-1;
 
 }  // namespace
 
 // Cody & Waite, Software Manual for the Elementary Functions, 1980, chapter 8. The first two differences
-// are exact in every rounding mode, as are the products but for the last; what the third one rounds away
-// is found again (Dekker 1971). The number of turns may be one off near its border: the rest is then a
-// little larger. -0 stays in the head, as the excess is a difference of equals, +0.
+// are exact in every rounding mode, as are the products but for the last; what further ones round away
+// is found again (Dekker 1971): each part has digits as far down as the next product, or the difference is
+// larger. The number of turns may be one off near its border: the rest is then a little larger. -0 stays in
+// the head, as the excess is a difference of equals, +0.
 Angle reduced(Expr x) {
   const auto part = table(x, quarter_turn_f32, quarter_turn_f64);
   const Expr nan = constant_like(x, std::numeric_limits<double>::quiet_NaN());
   const Expr known = select(abs(x) <= largest_angle(x.type()), x, nan);
   const Expr turns = floor(known * two_over_pi + 0.5);
-  const Expr coarse = known - turns * part[0] - turns * part[1];
-  const Expr third = turns * part[2];
-  const Expr head = coarse - third;
-  const Expr excess = head - coarse + third + turns * part[3];
+  Expr head = known - turns * part[0] - turns * part[1];
+  Expr excess = turns * part.back();
+  for (const double more : part.subspan(2, part.size() - 3)) {
+    const Expr product = turns * more, next = head - product;
+    excess = next - head + product + excess;
+    head = next;
+  }
 
   const Expr half = turns * 0.5, pairs = floor(half);
   return {.rest = {head, excess},

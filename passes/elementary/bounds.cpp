@@ -72,7 +72,7 @@ std::optional<double> ulps(Op op, Type type) {
   return type == f32 ? row->f32_ulps : row->f64_ulps;
 }
 
-double largest_angle(Type type) { return type == f32 ? 12'800 : 0x1p22; }
+double largest_angle(Type type) { return type == f32 ? 12'800 : 0x1p30; }
 
 // Where the exact value is no denormal, the computed one is not 0; but exp, pow and atan2 fade out to 0, and a
 // driver may round what is left of them to 0: there the bound is the smallest normal number. Other denormals

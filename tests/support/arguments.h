@@ -63,7 +63,7 @@ inline double random_argument(std::mt19937_64& random, Type type) {
     case 0: return random_near_one(random, type);
     case 1: return -random_near_one(random, type);
     case 2: {
-      const std::uint64_t turns = random() >> (42 + random() % 21);
+      const std::uint64_t turns = random() >> (34 + random() % 29);
       return rounded(static_cast<long double>(turns) * std::numbers::pi_v<long double> / 2, type);
     }
     case 3:  return rounded(unit(random) * std::ldexp(1.0, static_cast<int>(random() % 20) - 8), type);
