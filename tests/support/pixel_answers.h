@@ -59,18 +59,19 @@ inline std::expected<std::vector<PixelAnswer>, std::string> pixel_answers(const 
   return result;
 }
 
-// The ray and those as close to it as rounding in float may move it.
+// The ray and those as close to it as rounding in float may move it: a little at a time, as f may vary on the way.
 inline std::vector<Ray> rays_beside(const Ray& ray) {
   std::vector<Ray> result{ray};
-  for (const double sign : {-1.0, 1.0}) {
+  const auto add = [&](auto change) { change(result.emplace_back(ray)); };
+  for (const double sign : {-1.0, 1.0})
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      result.push_back(ray);
-      result.back().o[axis] += sign * 1e-6 * (1 + std::abs(ray.o[axis]));
+      const double size = sign * (1 + std::abs(ray.o[axis]));
+      for (int steps = 1; steps <= 32; ++steps) add([&](Ray& r) { r.o[axis] += steps * 0x1p-28 * size; });
+      add([&](Ray& r) { r.o[axis] += 1e-6 * size; });
     }
-    result.push_back(ray);
-    result.back().tmin += sign * 1e-6 * ray.tmax;
-    result.push_back(ray);
-    result.back().tmax += sign * 1e-6 * ray.tmax;
+  for (const double sign : {-1.0, 1.0}) {
+    add([&](Ray& r) { r.tmin += sign * 1e-6 * ray.tmax; });
+    add([&](Ray& r) { r.tmax += sign * 1e-6 * ray.tmax; });
   }
   return result;
 }
