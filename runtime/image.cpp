@@ -41,7 +41,7 @@ std::vector<fs::path> module_places() {
   return {executable / "imp_image.so", executable / "../lib/imp/imp_image.so"};
 }
 
-// Libraries behind the module start threads while they are loaded, and wait for ever where one of these cannot start.
+// A library behind the module starts threads while it is loaded, and waits for ever where one of them cannot start.
 bool has_room_for_module() {
   constexpr std::size_t enough = 640 << 20;  // of address space; libraries and stacks take 540 MiB
   void* const room = mmap(nullptr, enough, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);

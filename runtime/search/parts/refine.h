@@ -7,15 +7,14 @@ namespace imp {
 
 struct Refined {
   Expr s;
-  Expr lo, hi;  // what is left of the bracket; where `enclosed`, f has proven, opposite signs at its ends
-  Truth
-      enclosed;  // enclosures of f in f64 have opposite signs on both sides of s, within certified_length of it
+  Expr lo, hi;     // what is left of the bracket, with s in it
+  Truth enclosed;  // enclosures in f64 have opposite signs at lo and hi, within certified_length of s
 };
 
-// Appends phases that find the root of a bracket in which f changes its sign. Newton's method on values proposes a
-// place; bisection steps in where a step leaves the bracket or does not halve the last one (stiff f, such as x^500).
-// Enclosures in double then look at both sides of it, and bisect where their signs do not confirm the place: values may
-// be NaN, or wrong by more than f varies. Answers the middle of a bracket without a change of sign.
+// Appends phases that find the root of a bracket in which f changes its sign. Values propose a place: by Newton's
+// method, with bisection where a step leaves the bracket or does not halve the last one (stiff f, such as x^500).
+// Enclosures in double decide: they look at both sides of the place, and bisect where their signs do not confirm it.
+// Values may be NaN, or wrong by more than f varies. Without a change of sign s is the middle of the bracket.
 Refined refine(Program& program, const RayFunction& f, const Bracket& bracket);
 
 // A hit whose place is not known as well as is promised is undecided.
